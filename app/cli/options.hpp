@@ -52,7 +52,7 @@ void add_lateness_options(CLI::App& command, runs::GradeScenario& scenario);
 /// Adds --errors.
 void add_error_option(CLI::App& command, runs::GradeScenario& scenario);
 
-// Of `grade` and `campaign grade`.
+// Of `grade`, `campaign grade` and `scope`.
 
 /// Adds --design, --surface, --track, --datum.
 void add_design_options(CLI::App& command, design::DesignSource& source);

@@ -32,6 +32,7 @@ struct ScopeCommand {
   std::optional<std::string> soil;
   std::optional<int> bitrate_bps;
   scope::ServerOptions server;
+  design::DesignSource design;
   reports::SetupOptions setup;
 };
 
@@ -49,6 +50,7 @@ scope::SimOptions simulation(const ScopeCommand& options) {
   scope::SimOptions result;
   result.task = *options.sim;
   result.profile = options.setup.profile;
+  result.designed = options.setup.designed;
   result.seed = options.seed;
   result.simulated = options.simulated;
   result.soil = options.soil.value_or("");
@@ -65,6 +67,19 @@ reports::SetupOptions setup_of(const ScopeCommand& options) {
     setup.tasks = {"flatten"};
   }
   return setup;
+}
+
+/// The dozer with the design that is told; none where none is.
+std::optional<machines::SimulatedDozer> designed_of(const ScopeCommand& options) {
+  const design::DesignSource& design = options.design;
+  if (design.file.empty() && design.surface.empty() && !design.has_track()) {
+    return std::nullopt;
+  }
+  if (options.sim && *options.sim != "grade") {
+    throw std::runtime_error("--design: of a dozer, so with --sim grade, --log or --can");
+  }
+  const std::string profile = options.setup.profile.value_or("dozer_9t");
+  return designed(machines::load_simulated_dozer(machines::find_profile(profile)), design).machine;
 }
 
 void show(const ScopeCommand& options) {
@@ -142,13 +157,19 @@ void add_scope(CLI::App& app, int& status) {
                    "exact without it")
       ->check(whole_number());
   add_simulated_options(*command, options->simulated);
+  add_design_options(*command, options->design);
   add_soil_option(
       *command, [options](const std::string& name) { options->soil = name; },
       "Of --sim dig and autodig: ground that the bucket cuts, or with dig kim, the paper's field "
       "of force, which --soil alone is");
   add_examples(*command, {"scope --sim dig", "scope --log out/dig.log",
                           "scope --can can0 --profile mine.toml"});
-  command->callback([options, &status] { status = guarded("scope", [&] { show(*options); }); });
+  command->callback([options, &status] {
+    status = guarded("scope", [&] {
+      options->setup.designed = designed_of(*options);
+      show(*options);
+    });
+  });
 }
 
 }  // namespace graben::cli

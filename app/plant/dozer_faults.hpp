@@ -25,10 +25,14 @@ struct PoseFaults {
   ReadingFault heading;
   ReadingFault yaw_rate;
 
+  [[nodiscard]] std::array<ReadingFault*, 11> all() {
+    return {&position, &height,    &pitch,  &velocity, &climb,   &pitch_rate,
+            &roll,     &roll_rate, &offset, &heading,  &yaw_rate};
+  }
+
   /// The whole sensor: a total station that has lost its prism, an inertial unit that has died.
   void set_state(dbc::RawState state) {
-    for (ReadingFault* fault : {&position, &height, &pitch, &velocity, &climb, &pitch_rate, &roll,
-                                &roll_rate, &offset, &heading, &yaw_rate}) {
+    for (ReadingFault* fault : all()) {
       fault->state = state;
     }
   }

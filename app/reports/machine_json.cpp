@@ -88,39 +88,62 @@ json dig_json(const ExcavatorProfile& profile) {
           {"ground_z_m", 0.0}};
 }
 
-json design_json(const GradeDesign& grade, double length_m) {
-  const GradeProfile design(grade);
+/// Along the track at the places of the design: [x, value].
+template <class Value>
+json along_json(double length_m, const Value& value) {
   const int count = static_cast<int>(std::ceil((length_m + 2.0 * kDesignMargin_m) / kDesignStep_m));
   json points = json::array();
   for (int i = 0; i <= count; ++i) {
     const double x_m = i * kDesignStep_m - kDesignMargin_m;
-    points.push_back({rounded(x_m), rounded(design.at(x_m).height_m)});
+    points.push_back({rounded(x_m), rounded(value(x_m))});
   }
   return points;
+}
+
+/// What a machine whose blade tilts has beside the others, and its design across the track.
+void add_tilt(const DozerProfile& profile, double length_m, json& machine) {
+  const TiltProfile& tilt = profile.tilt;
+  if (!tilt.present) {
+    return;
+  }
+  machine["tilt"] = {{"edge_width_m", tilt.edge_width_m},
+                     {"angle_most_rad", tilt.angle_most_rad},
+                     {"base_m", vector(tilt.base_m)},
+                     {"eye_m", vector(tilt.eye_m)}};
+  const GradeProfile design(profile.grade);
+  machine["cross"] = along_json(length_m, [&](double x_m) { return design.cross_at(x_m).slope; });
+  if (design.curves()) {
+    machine["curvature"] =
+        along_json(length_m, [&](double x_m) { return design.curvature_at(x_m); });
+  }
 }
 
 json dozer_json(const machines::DozerMachine& machine, double length_m) {
   const DozerBody& body = machine.profile.body;
   const BladeGeometry& blade = machine.profile.blade;
-  return {{"kind", "dozer"},
-          {"name", machine.name},
-          {"hash", machine.hash},
-          {"blade",
-           {{"pivot_m", vector(blade.pivot_m)},
-            {"arm_m", vector(blade.arm_m)},
-            {"cutting_edge_m", blade.cutting_edge_m},
-            {"base_m", vector(blade.base_m)},
-            {"length_home_m", blade.length_home_m},
-            {"edge_min_m", blade.edge_min_m},
-            {"edge_max_m", blade.edge_max_m},
-            {"cylinders", blade.cylinder_count},
-            {"bore_m", blade.bore_m},
-            {"rod_m", blade.rod_m}}},
-          {"track_contact_m", body.track_contact_m},
-          {"half_gauge_m", body.half_gauge_m},
-          {"mass_centre_height_m", body.mass_centre_height_m},
-          {"design", design_json(machine.profile.grade, length_m)},
-          {"length_m", length_m}};
+  const GradeProfile design(machine.profile.grade);
+  json result = {
+      {"kind", "dozer"},
+      {"name", machine.name},
+      {"hash", machine.hash},
+      {"blade",
+       {{"pivot_m", vector(blade.pivot_m)},
+        {"arm_m", vector(blade.arm_m)},
+        {"cutting_edge_m", blade.cutting_edge_m},
+        {"base_m", vector(blade.base_m)},
+        {"length_home_m", blade.length_home_m},
+        {"edge_min_m", blade.edge_min_m},
+        {"edge_max_m", blade.edge_max_m},
+        {"cylinders", blade.cylinder_count},
+        {"bore_m", blade.bore_m},
+        {"rod_m", blade.rod_m}}},
+      {"track_contact_m", body.track_contact_m},
+      {"half_gauge_m", body.half_gauge_m},
+      {"mass_centre_height_m", body.mass_centre_height_m},
+      {"design", along_json(length_m, [&](double x_m) { return design.at(x_m).height_m; })},
+      {"length_m", length_m}};
+  add_tilt(machine.profile, length_m, result);
+  return result;
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ struct SetupOptions {
   /// A bus profile beside the shipped ones, for machines that were put on it: a file or a shipped
   /// name.
   std::optional<std::string> bus = std::nullopt;
+  /// A dozer with a design of its own, in the place of `profile`.
+  std::optional<machines::SimulatedDozer> designed = std::nullopt;
 };
 
 /// {"machines": [...], "buses": [...], "words": {...}, "version": "..."}, the same whatever the

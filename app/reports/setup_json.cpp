@@ -60,7 +60,7 @@ std::vector<fs::path> files_beside(const Find& find, const char* one_of_them) {
 /// The one that is told, then the shipped ones, each once.
 std::vector<fs::path> profiles(const SetupOptions& options) {
   std::vector<fs::path> files;
-  if (options.profile) {
+  if (options.profile && !options.designed) {
     files.push_back(machines::find_profile(*options.profile));
   }
   const auto find = [](const char* name) { return machines::find_profile(name); };
@@ -156,6 +156,9 @@ json text_json() {
 json shared_setup(const SetupOptions& options) {
   ToldTasks told(options.tasks);
   json machines_json = json::array();
+  if (options.designed) {
+    machines_json.push_back(machine_json(*options.designed));
+  }
   for (const fs::path& file : profiles(options)) {
     const bool is_simulated = fs::is_regular_file(machines::simulation_file(file));
     if (machines::profile_kind(file) == machines::MachineKind::kDozer) {
@@ -166,7 +169,7 @@ json shared_setup(const SetupOptions& options) {
           is_simulated ? excavator_json(machines::load_simulated_excavator(file), options, told)
                        : excavator_json(machines::load_excavator(file), options, told));
     }
-    if (options.profile && machines_json.size() == 1) {
+    if (options.profile && !options.designed && machines_json.size() == 1) {
       told.throw_unless_fitted();
     }
   }

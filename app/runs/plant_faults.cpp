@@ -113,6 +113,25 @@ PlantFaultTable<Excavator> make_excavator() {
   return table;
 }
 
+/// Of a dozer whose blade tilts, and of one on a design whose track curves.
+void add_tilt(PlantFaultTable<Dozer>& table) {
+  add_sensor(
+      "tilt-stroke", [](Dozer & faults) -> auto& { return faults.tilt_stroke; }, table);
+  table["tilt-spool:held"] = [](Dozer& faults, double value) {
+    faults.tilt_spool_held_ratio = value;
+  };
+  add_sensor(
+      "roll", [](Dozer & faults) -> auto& { return faults.pose.roll; }, table);
+  add_sensor(
+      "roll-rate", [](Dozer & faults) -> auto& { return faults.pose.roll_rate; }, table);
+  add_sensor(
+      "offset", [](Dozer & faults) -> auto& { return faults.pose.offset; }, table);
+  add_sensor(
+      "heading", [](Dozer & faults) -> auto& { return faults.pose.heading; }, table);
+  add_sensor(
+      "yaw-rate", [](Dozer & faults) -> auto& { return faults.pose.yaw_rate; }, table);
+}
+
 PlantFaultTable<Dozer> make_dozer() {
   PlantFaultTable<Dozer> table = common<Dozer>();
   add_sensor(
@@ -131,10 +150,9 @@ PlantFaultTable<Dozer> make_dozer() {
       "climb", [](Dozer & faults) -> auto& { return faults.pose.climb; }, table);
   add_sensor(
       "pitch-rate", [](Dozer & faults) -> auto& { return faults.pose.pitch_rate; }, table);
+  add_tilt(table);
   table["pose:frozen"] = [](Dozer& faults, double) {
-    plant::PoseFaults& pose = faults.pose;
-    for (plant::ReadingFault* fault : {&pose.position, &pose.height, &pose.pitch, &pose.velocity,
-                                       &pose.climb, &pose.pitch_rate}) {
+    for (plant::ReadingFault* fault : faults.pose.all()) {
       fault->stuck = true;
     }
   };

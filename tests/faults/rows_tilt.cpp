@@ -217,7 +217,7 @@ void go_wrong(Trial<Dozer>& trial, const std::vector<Case>& cases) {
   });
   trial.outcome.harm_unit = "mm";
   trial.check(trial.outcome.harm <= 1e3 * wrong.most_m,
-              fmt::format("{}: edge {:.0f} mm off", wrong.name, trial.outcome.harm));
+              fmt::format("edge {:.0f} mm off", trial.outcome.harm));
   trial.expect_stop(stop);
   for (std::string& failure : trial.outcome.failures) {
     failure = fmt::format("{}: {}", wrong.name, failure);

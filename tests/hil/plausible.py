@@ -12,7 +12,7 @@ import tempfile
 
 import plausible_judge
 import run_programs
-from plausible_cases import CASES, EVERY, MADE, Case, lanes
+from plausible_cases import CASES, EVERY, MADE, TRACK, TRACK_FILE, Case, lanes
 
 LANES = 3
 
@@ -42,7 +42,9 @@ def made_profiles(folder: pathlib.Path) -> dict[str, pathlib.Path]:
             if count != 1:
                 raise RuntimeError(f"{source}: '{pattern}' is there {count} times")
         (folder / name).write_text(text, encoding="utf-8")
-    return {name: folder / name for name in MADE}
+    track = "".join(" ".join(map(str, corner)) + "\n" for corner in TRACK)
+    (folder / TRACK_FILE).write_text(track, encoding="ascii")
+    return {name: folder / name for name in (*MADE, TRACK_FILE)}
 
 
 def main() -> int:
@@ -61,7 +63,7 @@ def main() -> int:
         told = folder / "cases"
         told.write_text("".join(case.line(lane_of[place], f"v{place}") for place, case in enumerate(cases)),
                         encoding="ascii")
-        return run_programs.main("plausible.sh", lambda out: check(cases, out), timeout_s=100.0,
+        return run_programs.main("plausible.sh", lambda out: check(cases, out), timeout_s=180.0 if every else 100.0,
                                  extra={"cases": told, **made_profiles(folder)})
 
 

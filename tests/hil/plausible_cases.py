@@ -1,28 +1,52 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The cases of plausible.py: rows 51 to 66 of the fault table on a kernel's bus, once for each machine that
-can have them, and what else only a kernel can show. The bounds are those of tests/faults/rows_*.cpp; where a row
+"""The cases of plausible.py: rows 51 to 66, 78 and 79 of the fault table on a kernel's bus, once for each machine
+that can have them, and what else only a kernel can show. The bounds are those of tests/faults/rows_*.cpp; where a row
 gives a drive more time than a case lasts, the case's own end is the bound."""
 
 import dataclasses
 
+import run_programs
 from bus_log import SPOOL_COMMAND, SWING_STATE
 
 DIG, GRADE = ("excavator_22t", "dig", "-"), ("dozer_9t", "grade", "-")
 PROGRAM = ("excavator_12t", "program", "flatten")
 # Machines of row 66: a rock that never comes loose, a transmission that gives less than what it takes to roll.
 ROCK, HEAVY = ("excavator_rock", "dig", "-"), ("dozer_heavy", "grade", "-")
-# Their files: from which, and what is another there. Both stop after the least that a profile may have.
+# Of rows 78 and 79: a blade that tilts, on a track that banks to both sides by turns. The track is straight: on one
+# that curves the simulated machine alone needs more than a processor's time here, so what tells of its course is
+# tried by fault_cases only.
+BANKED = ("dozer_banked", "grade", "-")
+ALONE = (BANKED,)
+# x, height, slope across.
+TRACK = [(0, 0, 0), (2.5, -0.05, 0), (5, -0.06, 0.045), (10, -0.05, -0.045), (15, -0.06, 0.045), (20, -0.05, -0.045),
+         (25, -0.06, 0), (30, -0.06, 0)]
+# The machines' files: from which, and what is another there. Both of row 66 stop after the least that a profile
+# may have.
 STALL_S = 3.0
 STALL = (r"(?m)^\[safety\]", f"[safety]\nstall = {STALL_S}")
+TRACK_FILE = "banked.txt"
+
+
+def tilt_of(name: str) -> str:
+    """What a profile has beside the one that it is like."""
+    text = (run_programs.PROFILES / name).read_text(encoding="utf-8")
+    return "\n" + text[text.index("[tilt]"):].replace("\\", r"\\")
+
+
 MADE = {"excavator_rock.toml": ("excavator_22t.toml", [STALL]),
         "excavator_rock.sim.toml": ("excavator_22t.sim.toml", [(r"share = 0.46", "share = 0.05"),
                                                                (r"hold = 3.0", "hold = 60.0")]),
         "dozer_heavy.toml": ("dozer_9t.toml", [STALL]),
+        "dozer_banked.toml": ("dozer_9t.toml", [(r"(?m)^profile = .*$", f'design = "{TRACK_FILE}"'),
+                                                 (r"\Z", tilt_of("dozer_9t_tilt.toml"))]),
+        "dozer_banked.sim.toml": ("dozer_9t.sim.toml", [(r"(?m)^length = .*$", f"length = {float(TRACK[-1][0])}"),
+                                                         (r"(?m)^depth_max = .*$", "depth_max = 0.06"),
+                                                         (r"\Z", tilt_of("dozer_9t_tilt.sim.toml"))]),
         "dozer_heavy.sim.toml": ("dozer_9t.sim.toml", [(r"relief = 42.0e6", "relief = 3.0e6"),
                                                        (r"rolling_resistance = 0.08", "rolling_resistance = 0.4")])}
 # Active from 1.7 s on. The boom is at speed at 3 s, the swing at 4; the dozer comes to its grade at 5, where its
 # blade moves, and to a slope at 7.5.
-AT_S, SWING_S, BLADE_S, PITCH_S = 3.0, 4.0, 5.5, 7.5
+AT_S, SWING_S, BLADE_S, PITCH_S, BANKS_S = 3.0, 4.0, 5.5, 7.5, 7.5
 # The machine's last half second is the operator letting go.
 LETS_GO_S = 0.6
 
@@ -130,6 +154,13 @@ EVERY = [
     Case(64, DIG, (), (), 2.0, at_s=0.0, judged="change", operator="changes", seconds=5.4),
     Case(64, GRADE, (), (), 2.0, at_s=0.0, judged="change", operator="changes", seconds=5.4),
     Case(65, DIG, ("arm-pressures:swapped",), (), 2.0, judged="harmless", seconds=6.0),
+    Case(78, BANKED, ("tilt-stroke:drift=0.05",), FROZEN, 1.0, at_s=BANKS_S),
+    Case(78, BANKED, ("tilt-stroke:frozen",), FROZEN, 3.0, at_s=BANKS_S),
+    Case(78, BANKED, ("tilt-spool:held=0.6",), ("SpoolStuck",), 0.2, at_s=BANKS_S),
+    Case(79, BANKED, ("roll:drift=0.1",), POSE, 0.4, at_s=BANKS_S),
+    # A frozen angle or rate is wrong once the truth has gone on.
+    Case(79, BANKED, ("roll:frozen",), POSE, 2.5, at_s=BANKS_S),
+    Case(79, BANKED, ("roll-rate:frozen",), POSE, 2.5, at_s=BANKS_S),
 ]
 # Row 63. What asks for the end is answered in the next cycle; a crash at once.
 EVERY += [Case(63, machine, (), (), 0.020, at_s=2.1, judged=judged, seconds=2.9,
@@ -144,11 +175,15 @@ CASES = list({(case.row, case.judged): case for case in reversed(EVERY)}.values(
 
 
 def lanes(cases: list[Case], count: int) -> list[int]:
-    """In which of so many lanes, that run beside each other, each case comes: the longest first."""
+    """In which of so many lanes, that run beside each other, each case comes: the longest first. In lane 0, after
+    them, what runs alone."""
     ends = [0.0] * count
     lane_of = [0] * len(cases)
     for place in sorted(range(len(cases)), key=lambda place: -cases[place].lasts_s):
-        lane_of[place] = ends.index(min(ends))
+        if cases[place].machine in ALONE:
+            continue
+        shortest = ends.index(min(ends))
+        lane_of[place] = shortest + 1
         # A case begins and ends with processes that come and go.
-        ends[lane_of[place]] += cases[place].lasts_s + 0.5
+        ends[shortest] += cases[place].lasts_s + 0.5
     return lane_of

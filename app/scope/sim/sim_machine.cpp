@@ -122,10 +122,12 @@ SimSite<SimDozer> grade_site(const SimOptions& options) {
   machines::DozerScenario scenario;
   scenario.errors = options.seed.has_value();
   scenario.seed = options.seed.value_or(0);
+  const auto own = [&options] {
+    return machines::load_simulated_dozer(
+        profile_of(options, "dozer_9t", machines::MachineKind::kDozer, "a dozer"));
+  };
   auto machine = std::make_shared<const machines::SimulatedDozer>(
-      machines::arranged(machines::load_simulated_dozer(profile_of(
-                             options, "dozer_9t", machines::MachineKind::kDozer, "a dozer")),
-                         scenario));
+      machines::arranged(options.designed ? *options.designed : own(), scenario));
   SimSite<SimDozer> site;
   site.make = [machine] { return std::make_unique<runs::GradeRig>(*machine, kFullSpeed); };
   site.is_done = [machine](const SimDozer::Rig& nodes) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/machines/simulated/simulated_dozer.hpp"
 #include "app/machines/simulated/simulation_file.hpp"
 #include "app/plant/excavator_plant.hpp"
 #include "app/plant/operator_node.hpp"
@@ -51,6 +52,8 @@ struct SimOptions {
   /// That an excavator digs in: of machines::kSoilNames, or of dig kim, a field of force that the
   /// page can switch off. Empty: none from the start.
   std::string soil;
+  /// Of grade: the machine with a design of its own, in the place of `profile`.
+  std::optional<machines::SimulatedDozer> designed;
   /// What the controller does not know is drawn from it: errors of sensors and parameters. Exact
   /// without it.
   std::optional<std::uint64_t> seed;

@@ -4,6 +4,7 @@
 import {createFeed, embedded_setup} from './feed/feed';
 import {State} from './state';
 import {Alarms} from './view/alarms';
+import {BehindView} from './view/behind_view';
 import {FaultList} from './view/fault_list';
 import {FaultLog} from './view/fault_log';
 import {FileOpener} from './view/files';
@@ -76,7 +77,9 @@ export function start(root: HTMLElement): void {
   header.node.lastElementChild?.prepend(files.node);
 
   const panel: View[] = [
-    new StatePanel(words), new RunPanel(theme, words, shares), new SimPanel((message) => state.send(message)),
+    new StatePanel(words),
+    new BehindView(theme, {ground: () => scene.ground(), design: () => scene.layers.shown.design}),
+    new RunPanel(theme, words, shares), new SimPanel((message) => state.send(message)),
     new FaultList(faults, words, (time_s) => state.playhead.seek(time_s)), moments,
     new MessageTable((signal) => chooser.choose(signal)),
     new HealthPanel(),

@@ -180,7 +180,21 @@ export interface DozerMachine extends AnyMachine {
   half_gauge_m: number;
   mass_centre_height_m: number;
   design: readonly Vector2[];  ///< x, z; x rises.
+  tilt?: Tilt;                 ///< Of a blade that tilts, as the next.
+  cross?: readonly Vector2[];  ///< x and the design's slope across there, left up positive.
+  /// x and the track's curvature in plan there, 1/m, to the left positive; none: it is straight. x
+  /// is then the station along it.
+  curvature?: readonly Vector2[];
   length_m: number;            ///< The grade is made from x = 0 to here.
+}
+
+/// A blade that turns about its own longitudinal axis, through the middle of its edge. Pins as seen
+/// from behind with the blade level: y to the left, z up, from that axis.
+export interface Tilt {
+  edge_width_m: number;    ///< End to end.
+  angle_most_rad: number;  ///< Either way against the body; left end up is positive.
+  base_m: Vector2;         ///< Cylinder's pin on the push frame.
+  eye_m: Vector2;          ///< On the blade.
 }
 
 /// A run that is over: what its report shows beside the frames.

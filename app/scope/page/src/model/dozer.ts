@@ -68,6 +68,10 @@ function solve_linkage(blade: DozerMachine['blade']): BladeLinkage {
 const cylinder_length = (l11: number, l12: number, enclosed: number): number =>
   Math.sqrt(l11 ** 2 + l12 ** 2 - 2 * l11 * l12 * Math.cos(enclosed));
 
+/// The edge from the pivot at home, axes of the body.
+export const home_edge = (machine: DozerMachine): Vector2 =>
+  polar(machine.blade.cutting_edge_m, bladeLinkage(machine).edge_home_rad);
+
 /// theta_1 at a stroke; strokes outside the blade's reach are taken for its end.
 export function bladeAngle(machine: DozerMachine, stroke_m: number): number {
   const {l11_m, l12_m, enclosed_home_rad, shortest_m, stroke_max_m} = bladeLinkage(machine);

@@ -77,9 +77,17 @@ export function excavatorDrives(
 
 /// Height of a design; before its first point and after its last one it goes on level.
 export function designHeight(design: readonly Vector2[], x_m: number): number {
-  const after = design.findIndex(([x]) => x > x_m);
-  if (after <= 0) {
-    return after === 0 ? design[0][1] : design[design.length - 1]?.[1] ?? NaN;
+  let [after, end] = [0, design.length];  // The first point behind x.
+  while (after < end) {
+    const middle = (after + end) >> 1;
+    if (design[middle][0] > x_m) {
+      end = middle;
+    } else {
+      after = middle + 1;
+    }
+  }
+  if (after === 0 || after === design.length) {
+    return design[Math.max(after - 1, 0)]?.[1] ?? NaN;
   }
   const [x0, z0] = design[after - 1];
   const [x1, z1] = design[after];

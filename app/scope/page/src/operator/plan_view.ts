@@ -5,9 +5,9 @@ import type {Vector2, Vector3} from '../model/api';
 import {blade_width} from '../scene/dozer_shape';
 import {reach_m} from '../scene/soil_shape';
 import {draw_bound, in_plan, own_fences, ring_of, shown_task} from './bounds';
-import {dozer_above, excavator_above, type Flat} from './figure';
+import {dozer_above, excavator_above, type Flat} from '../scene/figure';
 import type {Frame} from './frame';
-import {type Metres, Picture, type Span} from './picture';
+import {type Metres, Picture, type Span} from '../view/picture';
 
 /// Around a dozer, m.
 const BEHIND_M = 4;

@@ -5,9 +5,9 @@ import type {DozerMachine, ExcavatorMachine, Vector2} from '../model/api';
 import type {HeightField} from '../scene/height_field';
 import {reach_m} from '../scene/soil_shape';
 import {draw_bound, in_section, kept_out, own_fences, shown_task} from './bounds';
-import {dozer_side, excavator_side, type Flat} from './figure';
+import {dozer_side, excavator_side, type Flat} from '../scene/figure';
 import type {Frame} from './frame';
-import {type Metres, Picture, type Span} from './picture';
+import {type Metres, Picture, type Span} from '../view/picture';
 
 /// Before and behind a dozer's edge, m.
 const AHEAD_M = 3.2;
@@ -99,13 +99,12 @@ const graded = ({design, length_m}: DozerMachine): Vector2[] =>
 
 /// Heights from one reach to another, beyond the field level.
 export function profile_of(
-  {grid, heights}: HeightField, swing_rad: number, [from, to]: readonly [number, number]): Vector2[] {
+  field: HeightField, swing_rad: number, [from, to]: readonly [number, number]): Vector2[] {
+  const {cell_m} = field.grid;
   const points: Vector2[] = [];
-  for (let reach = from; reach <= to + grid.cell_m; reach += 0.5 * grid.cell_m) {
-    const column = Math.round((reach * Math.cos(swing_rad) - grid.x_m) / grid.cell_m);
-    const row = Math.round((reach * Math.sin(swing_rad) - grid.y_m) / grid.cell_m);
-    const inside = column >= 0 && row >= 0 && column < grid.columns && row < grid.rows;
-    points.push([reach, inside ? heights[row * grid.columns + column]! : 0]);
+  for (let reach = from; reach <= to + cell_m; reach += 0.5 * cell_m) {
+    const z = field.shown_at(reach * Math.cos(swing_rad), reach * Math.sin(swing_rad));
+    points.push([reach, Number.isNaN(z) ? 0 : z]);
   }
   return points;
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The dozer as nodes: body, blade on its pivot, cylinders between both.
 
-import {Group, Object3D, Vector3} from 'three';
+import {Group, Matrix4, Object3D, Vector3} from 'three';
 import type {DozerMachine, Vector2} from '../model/api';
-import {type DozerPose, bladeLinkage} from '../model/dozer';
-import {minus, polar, rotated} from '../model/geometry';
+import {type DozerPose, bladeLinkage, home_edge} from '../model/dozer';
+import type {DozerAcross} from '../model/dozer_across';
+import {minus, rotated} from '../model/geometry';
 import {Cylinder} from './cylinder';
 import {dozer_shape, type DozerShape} from './dozer_shape';
 import type {DozerMachineState} from './machine_state';
@@ -32,7 +33,7 @@ export class DozerModel {
     this.node.add(this.body.node);
     this.ghost.add(this.ghost_blade.node);
     const linkage = bladeLinkage(machine);
-    const edge = polar(machine.blade.cutting_edge_m, linkage.edge_home_rad);
+    const edge = home_edge(machine);
     this.edge.position.set(edge[0], 0, edge[1]);
     this.blade.node.add(this.edge);
     for (let i = 0; i < machine.blade.cylinders; ++i) {
@@ -44,9 +45,15 @@ export class DozerModel {
     }
   }
 
-  pose(pose: DozerPose): void {
-    place(this.body.node, pose.body_m, pose.pitch_rad);
+  /// `across`: of a machine whose blade tilts.
+  pose(pose: DozerPose, across: DozerAcross | null = null): void {
+    const {offset_m = 0, heading_rad = 0, roll_rad = 0, tilt_rad = 0} = across ?? {};
+    place(this.body.node, pose.body_m, pose.pitch_rad, roll_rad);
+    this.body.node.matrix.setPosition(0, 0, 0)
+      .premultiply(new Matrix4().makeRotationZ(heading_rad))
+      .setPosition(pose.body_m[0], offset_m, pose.body_m[1]);
     place(this.blade.node, this.machine.blade.pivot_m, pose.blade_rad);
+    this.tilt(this.blade.node, tilt_rad);
     const in_body = (point: Vector2): Vector2 =>
       rotated(minus(point, pose.body_m), -pose.pitch_rad);
     const base = in_body(pose.cylinder_base_m);
@@ -58,11 +65,21 @@ export class DozerModel {
     });
   }
 
-  /// Null hides it.
-  pose_ghost(pose: DozerPose | null): void {
+  /// About the edge's middle.
+  private tilt(blade: Object3D, left_up_rad: number): void {
+    const {x, y, z} = this.edge.position;
+    blade.matrix.multiply(new Matrix4().makeTranslation(x, y, z))
+      .multiply(new Matrix4().makeRotationX(left_up_rad))
+      .multiply(new Matrix4().makeTranslation(-x, -y, -z));
+  }
+
+  /// Null hides it. Its edge is at `offset_m` and as steep across as is told.
+  pose_ghost(pose: DozerPose | null, offset_m = 0, left_up_rad = 0): void {
     this.ghost.visible = pose !== null;
     if (pose !== null) {
       place(this.ghost_blade.node, pose.pivot_m, pose.blade_rad + pose.pitch_rad);
+      this.ghost_blade.node.matrix.setPosition(pose.pivot_m[0], offset_m, pose.pivot_m[1]);
+      this.tilt(this.ghost_blade.node, left_up_rad);
     }
   }
 
@@ -86,7 +103,8 @@ export class DozerModel {
   }
 }
 
-function place(node: Object3D, at_m: Vector2, turn_rad: number): void {
-  node.matrix.makeRotationY(-turn_rad).setPosition(at_m[0], 0, at_m[1]);
+function place(node: Object3D, at_m: Vector2, turn_rad: number, roll_rad = 0): void {
+  node.matrix.makeRotationY(-turn_rad).multiply(new Matrix4().makeRotationX(roll_rad))
+    .setPosition(at_m[0], 0, at_m[1]);
   node.matrixWorldNeedsUpdate = true;
 }

@@ -19,6 +19,7 @@ const shoe_m = (machine: DozerMachine): number => 0.45 * machine.half_gauge_m;
 
 /// A blade cuts as wide as its machine and a little more: the tracks go where it has cut.
 export const blade_width = (machine: DozerMachine): number =>
+  machine.tilt?.edge_width_m ??
   2 * machine.half_gauge_m + shoe_m(machine) + 0.25 * machine.half_gauge_m;
 
 export function dozer_shape(machine: DozerMachine): DozerShape {

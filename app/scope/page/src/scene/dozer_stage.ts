@@ -3,13 +3,14 @@
 
 import {Group, Object3D, Sphere, Vector3 as Point} from 'three';
 import type {DozerMachine, Vector2} from '../model/api';
+import {design_line, slope_of} from '../model/dozer_across';
 import {designHeight, wantedDozer} from '../model/wanted';
 import {DozerModel} from './dozer_model';
 import {blade_walk} from './edges';
 import {GroundLayer} from './ground_layer';
 import {dozer_key} from './key';
 import type {Labels} from './labels';
-import {dozer_state} from './machine_state';
+import {dozer_across_now, dozer_state} from './machine_state';
 import type {SharedMaterials} from './materials';
 import {type Pane, ribbon} from './planes';
 import {Ruler} from './ruler';
@@ -44,7 +45,7 @@ export class DozerStage implements Stage {
     const soil = dozer_soil(machine);
     const {grid} = soil;
     this.ground = new GroundLayer(soil, shared.light);
-    this.design = ribbon(graded(machine), width);
+    this.design = ribbon(graded(machine), width, machine.cross);
     this.trail = new TrailLayer(blade_walk(machine));
     this.ruler = new Ruler({
       from_x_m: Math.ceil(grid.x_m) + 4, to_x_m: Math.ceil(machine.length_m) + 2,
@@ -61,8 +62,10 @@ export class DozerStage implements Stage {
 
   update({store, now_s}: SceneUpdate): void {
     const state = dozer_state(this.machine, store, now_s);
+    const across = this.machine.tilt === undefined ? null :
+      dozer_across_now(this.machine, store, now_s).across;
     if (state.pose !== null) {
-      this.model.pose(state.pose);
+      this.model.pose(state.pose, across);
       this.along_m = state.pose.body_m[0];
       this.placed = true;
       this.model.node.visible = true;
@@ -70,7 +73,8 @@ export class DozerStage implements Stage {
     }
     this.model.show(state);
     this.model.pose_ghost(this.layers?.ghost && store.database !== null ?
-      wantedDozer(store, this.machine, now_s) : null);
+      wantedDozer(store, this.machine, now_s) : null,
+    across?.middle.place_m[1], Math.atan(across === null ? 0 : slope_of(design_line(across, 0))));
     this.trail.update(store, now_s);
   }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The bucket's teeth or the blade's edge, frame by frame.
 
-import type {DozerMachine, ExcavatorMachine, FrameStore} from '../model/api';
+import type {DozerMachine, ExcavatorMachine, FrameStore, Vector3} from '../model/api';
 import {dozerPose} from '../model/dozer';
+import {dozerAcross} from '../model/dozer_across';
 import {excavatorPose} from '../model/excavator';
 import type {Edge} from './height_field';
 import {SignalWalk} from './measured';
@@ -62,13 +63,39 @@ export const bucket_walk = (machine: ExcavatorMachine) =>
     };
   };
 
+const kBlade = ['BodyPosition.Position', 'BodyPosition.Height', 'BodyPitch.Pitch',
+  'BladeStroke.BladeStroke'];
+
 export const blade_walk = (machine: DozerMachine) =>
   (store: FrameStore, after_s: number): EdgeWalk => {
-    const signals = ['BodyPosition.Position', 'BodyPosition.Height', 'BodyPitch.Pitch',
-      'BladeStroke.BladeStroke'];
-    return walk_over(store, 'BladeStroke', signals, after_s, ([along, height, pitch, stroke]) => {
+    if (machine.tilt !== undefined) {
+      return tilting_walk(machine, store, after_s);
+    }
+    return walk_over(store, 'BladeStroke', kBlade, after_s, ([along, height, pitch, stroke]) => {
       const pose = dozerPose(machine, {
         position_m: along!, height_m: height!, pitch_rad: pitch!, blade_stroke_m: stroke!});
       return pose && {x_m: pose.edge_m[0], y_m: 0, z_m: pose.edge_m[1], heading_rad: 0};
     });
   };
+
+/// As it lies on the track, from end to end.
+function tilting_walk(machine: DozerMachine, store: FrameStore, after_s: number): EdgeWalk {
+  const signals = [...kBlade, 'TiltState.TiltStroke', 'TiltState.Roll'];
+  if (machine.curvature !== undefined) {
+    signals.push('BodyCourse.Offset', 'BodyCourse.Heading');
+  }
+  return walk_over(store, 'BladeStroke', signals, after_s,
+    ([along, height, pitch, stroke, tilt_stroke, roll, offset = 0, heading = 0]) => {
+      const across = dozerAcross(machine, {
+        position_m: along!, height_m: height!, pitch_rad: pitch!, blade_stroke_m: stroke!,
+        tilt_stroke_m: tilt_stroke!, roll_rad: roll!, offset_m: offset, heading_rad: heading});
+      if (across === null) {
+        return null;
+      }
+      const [left, middle, right] = [across.left, across.middle, across.right].map(({place_m}) => place_m) as
+        [Vector3, Vector3, Vector3];
+      const [dx, dy, dz] = [0, 1, 2].map((i) => left[i]! - right[i]!) as [number, number, number];
+      return {x_m: middle[0], y_m: middle[1], z_m: middle[2], heading_rad: Math.atan2(-dx, dy),
+        left_up: dz / Math.hypot(dx, dy)};
+    });
+}

@@ -7,7 +7,7 @@ import {
 import type {FrameStore} from '../model/api';
 import {GroundMaterial} from './ground';
 import {GroundSurface} from './ground_surface';
-import type {Grid} from './height_field';
+import type {Grid, HeightField} from './height_field';
 import type {Light} from './light';
 import {kOrder} from './materials';
 import {type Soil, soil_history} from './soil';
@@ -61,6 +61,11 @@ export class GroundLayer {
     this.show_load(now_s);
     const known = Math.max(this.history.known_until_s, store.from_s);
     return {changed: this.surface.update(), behind_s: done ? 0 : Math.max(now_s - known, 0)};
+  }
+
+  /// Null where it is not shown.
+  get shown(): HeightField | null {
+    return this.visible ? this.history.field : null;
   }
 
   private show_load(now_s: number): void {

@@ -57,11 +57,20 @@ export class HeightField {
 
   /// Of the node that is nearest; NaN beyond the grid.
   latest_at(x_m: number, y_m: number): number {
+    return this.at_nearest(this.latest, x_m, y_m);
+  }
+
+  /// The same as it is shown.
+  shown_at(x_m: number, y_m: number): number {
+    return this.at_nearest(this.heights, x_m, y_m);
+  }
+
+  private at_nearest(heights: Float32Array, x_m: number, y_m: number): number {
     const {cell_m, columns, rows} = this.grid;
     const column = Math.round((x_m - this.grid.x_m) / cell_m);
     const row = Math.round((y_m - this.grid.y_m) / cell_m);
     const is_inside = column >= 0 && row >= 0 && column < columns && row < rows;
-    return is_inside ? this.latest[row * columns + column] : NaN;
+    return is_inside ? heights[row * columns + column] : NaN;
   }
 
   /// Takes the node down to a height, if it is above; returns by how much. Times must not fall.
@@ -170,12 +179,14 @@ export interface BucketSigns {
   resists: boolean;      ///< The ground holds against the teeth.
 }
 
-/// An edge that cuts: as wide as the bucket or the blade, level, square to where it looks.
+/// An edge that cuts: as wide as the bucket or the blade, square to where it looks, level unless it
+/// has a slope.
 export interface Edge {
   x_m: number;
   y_m: number;
   z_m: number;
   heading_rad: number;
+  left_up?: number;            ///< Slope along the edge, its left end up.
   drives?: readonly number[];  ///< That hold it, m and rad, where each has a sensor of its own.
   tilt_rad?: number;           ///< Of a bucket's mouth against level.
   bucket?: BucketSigns;
@@ -196,6 +207,7 @@ export function cut(
       y_m: from.y_m + share * (to.y_m - from.y_m),
       z_m: from.z_m + share * (to.z_m - from.z_m),
       heading_rad: from.heading_rad + share * (to.heading_rad - from.heading_rad),
+      left_up: (1 - share) * (from.left_up ?? 0) + share * (to.left_up ?? 0),
     });
   }
   return lowered_m * cell_m ** 2;
@@ -218,8 +230,10 @@ function stamp(field: HeightField, time_s: number, width_m: number, edge: Edge):
     const dy = y_m + row * cell_m - edge.y_m;
     for (let column = first; column <= last; ++column) {
       const dx = x_m + column * cell_m - edge.x_m;
-      if (Math.abs(dx * cos + dy * sin) <= thick && Math.abs(dy * cos - dx * sin) <= half) {
-        lowered_m += field.lower(time_s, row * columns + column, edge.z_m);
+      const left = dy * cos - dx * sin;
+      if (Math.abs(dx * cos + dy * sin) <= thick && Math.abs(left) <= half) {
+        lowered_m += field.lower(
+          time_s, row * columns + column, edge.z_m + left * (edge.left_up ?? 0));
       }
     }
   }

@@ -3,6 +3,7 @@
 
 import type {DozerMachine, ExcavatorMachine, FrameStore} from '../model/api';
 import {type DozerPose, dozerPose} from '../model/dozer';
+import {type DozerAcross, dozerAcross} from '../model/dozer_across';
 import {type ExcavatorPose, excavatorPose} from '../model/excavator';
 import {type Measured, measured} from './measured';
 
@@ -60,6 +61,31 @@ export function dozer_state(
       blade_stroke_m: blade.value}),
     stale: {body: body_stale, blade: body_stale || !blade.fresh},
   };
+}
+
+export interface AcrossNow {
+  across: DozerAcross | null;  ///< Null: not known, or the blade does not tilt.
+  stale: boolean;
+}
+
+export function dozer_across_now(
+  machine: DozerMachine, store: FrameStore, now_s: number): AcrossNow {
+  const value = (signal: string): Measured => measured(store, signal, now_s);
+  const straight: Measured = {value: 0, fresh: true};
+  const curves = machine.curvature !== undefined;
+  const read = {
+    position_m: value('BodyPosition.Position'), height_m: value('BodyPosition.Height'),
+    pitch_rad: value('BodyPitch.Pitch'), blade_stroke_m: value('BladeStroke.BladeStroke'),
+    tilt_stroke_m: value('TiltState.TiltStroke'), roll_rad: value('TiltState.Roll'),
+    offset_m: curves ? value('BodyCourse.Offset') : straight,
+    heading_rad: curves ? value('BodyCourse.Heading') : straight};
+  return {
+    across: dozerAcross(machine, {
+      position_m: read.position_m.value, height_m: read.height_m.value,
+      pitch_rad: read.pitch_rad.value, blade_stroke_m: read.blade_stroke_m.value,
+      tilt_stroke_m: read.tilt_stroke_m.value, roll_rad: read.roll_rad.value,
+      offset_m: read.offset_m.value, heading_rad: read.heading_rad.value}),
+    stale: Object.values(read).some(({fresh}) => !fresh)};
 }
 
 /// A plan has no frames: its drives (strokes in m, swing in rad) are the machine.

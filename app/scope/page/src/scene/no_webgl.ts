@@ -13,6 +13,6 @@ export function without_webgl(host: HTMLElement, why: string): SceneView {
   return {
     setMachine: nothing, update: nothing, resize: nothing, setTheme: nothing,
     setLayers: nothing, resetCamera: nothing, tip: () => null, tipOnScreen: () => null,
-    settled: () => true, dispose: () => words.remove(),
+    ground: () => null, settled: () => true, dispose: () => words.remove(),
   };
 }

@@ -3,6 +3,7 @@
 
 import {BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial} from 'three';
 import type {Vector2, Vector3} from '../model/api';
+import {designHeight} from '../model/wanted';
 import {Lines, chained} from './lines';
 import {kOrder} from './materials';
 import {simplified} from './outline';
@@ -88,9 +89,14 @@ export function plane_pane(
     pane: new Pane([[a, d], [b, c]], kind), label_m: [middle(0), middle(1), middle(2)]};
 }
 
-/// A ribbon of a width along x and z.
-export function ribbon(line: readonly Vector2[], width_m: number): Pane {
+/// A ribbon of a width along x and z, level across or with the slope there, left up positive.
+export function ribbon(
+  line: readonly Vector2[], width_m: number, cross?: readonly Vector2[]): Pane {
   const half = 0.5 * width_m;
-  const across = ([x, z]: Vector2): [Vector3, Vector3] => [[x, -half, z], [x, half, z]];
-  return new Pane(simplified(line, 0.001).map(across), 'design');
+  const across = ([x, z]: Vector2): [Vector3, Vector3] => {
+    const rise = cross === undefined ? 0 : half * designHeight(cross, x);
+    return [[x, -half, z - rise], [x, half, z + rise]];
+  };
+  // What is straight along may yet turn.
+  return new Pane((cross === undefined ? simplified(line, 0.001) : line).map(across), 'design');
 }

@@ -7,6 +7,7 @@ import {Canvas} from './canvas';
 import {Corner} from './corner';
 import {DozerStage} from './dozer_stage';
 import {ExcavatorStage} from './excavator_stage';
+import type {HeightField} from './height_field';
 import {Labels} from './labels';
 import {SharedMaterials} from './materials';
 import {without_webgl} from './no_webgl';
@@ -173,6 +174,10 @@ class DrawnScene implements SceneView {
     this.camera.updateMatrixWorld();
     const at = new Point(...tip).project(this.camera);
     return [(0.5 + 0.5 * at.x) * this.width, (0.5 - 0.5 * at.y) * this.height];
+  }
+
+  ground(): HeightField | null {
+    return this.stage?.ground.shown ?? null;
   }
 
   settled(): boolean {

@@ -4,6 +4,7 @@
 import type {Group, Object3D, Sphere} from 'three';
 import type {FrameStore, Machine, Setup, Vector2, Vector3} from '../model/api';
 import type {GroundLayer} from './ground_layer';
+import type {HeightField} from './height_field';
 import type {SceneColours} from './theme';
 
 export interface SceneUpdate {
@@ -35,6 +36,8 @@ export interface SceneView {
   tip(): Vector3 | null;
   /// The same in CSS pixels from the host's upper left corner.
   tipOnScreen(): Vector2 | null;
+  /// The ground as it is shown; null where none is.
+  ground(): HeightField | null;
   /// Whether the picture is drawn, with all frames until its moment worked into the soil.
   settled(): boolean;
   dispose(): void;

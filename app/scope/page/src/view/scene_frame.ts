@@ -2,6 +2,7 @@
 /// The scene and its layers. Without WebGL it says so itself, and the rest goes on.
 
 import {createScene} from '../scene/scene';
+import type {HeightField} from '../scene/height_field';
 import type {SceneView} from '../scene/types';
 import {el} from './dom';
 import {LayerBar} from './layers';
@@ -59,6 +60,10 @@ export class SceneFrame {
 
   tip(): readonly [number, number, number] | null {
     return this.view.tip();
+  }
+
+  ground(): HeightField | null {
+    return this.view.ground();
   }
 
   settled(): boolean {

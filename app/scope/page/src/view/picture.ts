@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A canvas that fills its frame, metres on it, and the strokes that both pictures are made of.
+/// A canvas that fills its frame, metres on it, and the strokes that flat pictures are made of.
 
 import type {Vector2} from '../model/api';
-import {el} from '../view/dom';
+import {el} from './dom';
 
 /// A stretch of a plane, m: least and most of both axes.
 export interface Span {
@@ -107,12 +107,26 @@ export class Picture {
   }
 
   /// How long a metre is.
-  scale(metres: Metres, colour: string): void {
+  scale(metres: Metres, colour: string, size_px = 15): void {
     const [x, y] = [12, this.height - 12];
     this.line([[x, y - 6], [x, y], [x + metres.per_m, y], [x + metres.per_m, y - 6]], colour, 2);
+    this.words('1 m', [x + 5, y - 7], colour, size_px);
+  }
+
+  /// On its base line from there to the right, or to the left. `halo`: behind it, over lines.
+  words(
+    text: string, at: Vector2, colour: string, size_px: number, to: 'left' | 'right' = 'right',
+    halo: string | null = null): void {
+    this.pen.font = `600 ${size_px}px system-ui, sans-serif`;
+    this.pen.textAlign = to === 'right' ? 'left' : 'right';
+    if (halo !== null) {
+      this.pen.strokeStyle = halo;
+      this.pen.lineWidth = 4;
+      this.pen.lineJoin = 'round';
+      this.pen.strokeText(text, ...at);
+    }
     this.pen.fillStyle = colour;
-    this.pen.font = '600 15px system-ui, sans-serif';
-    this.pen.fillText('1 m', x + 5, y - 7);
+    this.pen.fillText(text, ...at);
   }
 
   private trace(points: readonly Vector2[]): void {

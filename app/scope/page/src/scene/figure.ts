@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The machines as flat shapes: the same pieces as in the scene, seen from the side and from above.
+/// The machines as flat shapes: the same pieces as in the scene, seen from the side, from above and
+/// from behind.
 
 import type {DozerMachine, ExcavatorMachine, Vector2, Vector3} from '../model/api';
-import type {DozerPose} from '../model/dozer';
+import {type DozerPose, home_edge} from '../model/dozer';
+import type {DozerAcross} from '../model/dozer_across';
 import type {ExcavatorPose} from '../model/excavator';
 import {add, direction, minus, rotated} from '../model/geometry';
-import {dozer_shape, type DozerShape} from '../scene/dozer_shape';
-import {excavator_shape, type ExcavatorShape} from '../scene/excavator_shape';
-import {kPaints} from '../scene/paints';
-import {type Piece, rectangle} from '../scene/pieces';
+import {dozer_shape, type DozerShape} from './dozer_shape';
+import {excavator_shape, type ExcavatorShape} from './excavator_shape';
+import {kPaints} from './paints';
+import {type Piece, rectangle} from './pieces';
 
 export interface Flat {
   outline: readonly Vector2[];
@@ -97,4 +99,31 @@ export function dozer_above(machine: DozerMachine, pose: DozerPose): Flat[] {
   const shape = shape_of<DozerMachine, DozerShape>(machine, dozer_shape);
   return seen_from_above([
     [shape.body, [pose.body_m[0], 0], 0], [shape.blade, [pose.pivot_m[0], 0], 0]]);
+}
+
+/// From behind: to the right and up, from the middle of the body's tracks or of the blade's edge.
+function seen_from_behind(pieces: readonly Piece[], at: Vector2, left_up_rad: number): Flat[] {
+  // The farthest first.
+  const front = ({outline}: Piece): number => Math.min(...outline.map(([x]) => x));
+  return [...pieces].sort((a, b) => front(b) - front(a)).map(({seen, outline, from_m, to_m, paint}) => {
+    const second = outline.map(([, v]) => v);
+    const own: Vector2 = [Math.min(...second), Math.max(...second)];
+    const [y, z]: [Vector2, Vector2] = seen === 'side' ? [[from_m, to_m], own] : [own, [from_m, to_m]];
+    // y is to the left.
+    return {outline: rectangle([-y[1], -y[0]], z).map((point) => add(at, rotated(point, -left_up_rad))),
+      paint: kPaints[paint]};
+  });
+}
+
+/// Places in the picture, m: see DozerAcross.
+export function dozer_behind(machine: DozerMachine, across: DozerAcross): Flat[] {
+  const shape = shape_of<DozerMachine, DozerShape>(machine, dozer_shape);
+  const {middle, left, right} = across;
+  const edge_m = home_edge(machine)[1];
+  // Without its arms, which are behind the body's nose; from the edge up, as it is this that turns.
+  const board = shape.blade.filter(({from_m, to_m}) => Math.max(-from_m, to_m) > 0.4 * shape.blade_width_m)
+    .map((piece): Piece => ({...piece, outline: piece.outline.map(([x, z]): Vector2 => [x, z - edge_m])}));
+  const slope_rad = Math.atan2(left.at_m[1] - right.at_m[1], right.at_m[0] - left.at_m[0]);
+  return [...seen_from_behind(board, middle.at_m, slope_rad),
+    ...seen_from_behind(shape.body, [0, across.body_m], across.roll_rad)];
 }
