@@ -138,7 +138,7 @@ class DozerController {
   /// Of the error that the task allows, what the blade may leave standing on purpose: the rest is
   /// for what nobody foresees.
   [[nodiscard]] double lift_most_m() const { return kLiftShare * profile_.grade.tolerance_m; }
-  static constexpr double kLiftShare = 0.30;
+  static constexpr double kLiftShare = 0.29;
 
   /// The same of the tilt.
   [[nodiscard]] TiltSituation tilt_at(const BladeSituation& at, double stroke_m) const;
