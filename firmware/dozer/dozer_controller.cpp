@@ -13,7 +13,7 @@ namespace graben {
 namespace {
 
 /// From a lower wanted speed to a slower machine: displacements, drive line, PI.
-constexpr double kTravelLead_s = 0.2;
+constexpr double kTravelLead_s = 0.24;
 
 /// A track's speed. Where one of them is not that of its displacements, none is believed, and one
 /// that is outvoted never: feedback of a wrong one would drive its track off.
@@ -96,9 +96,7 @@ void DozerController::choose_task(DozerValid& valid, double period_s) {
 }
 
 void DozerController::estimate(const DozerValid& valid, double period_s) {
-  const bool placed =
-      !valid.faults.has(Fault::kPoseMissing) && !valid.faults.has(Fault::kStrokeMissing);
-  if (!placed) {
+  if (valid.faults.has(Fault::kPoseMissing) || valid.faults.has(Fault::kStrokeMissing)) {
     return;
   }
   memory_.position =
@@ -108,6 +106,7 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
                      : PushState{};
   next_foretelling(profile_.body, ground_, design_, driving_of(valid), period_s,
                    memory_.foretelling);
+  memory_.flow = next_flow_share(profile_, memory_.flow, flow_now(valid), period_s);
   watch_fall(valid, period_s);
   const double latency_s = profile_.control.pose_latency_s;
   const BladeSituation now = foretold(valid, latency_s, valid.blade().stroke_m);
@@ -130,7 +129,7 @@ void DozerController::estimate(const DozerValid& valid, double period_s) {
                std::tan(stand.pitch_rad), !memory_.pass.down);
   preview_.look(ground_, design_, memory_.position.position_m + latency_s * valid.velocity_mps,
                 stand,
-                planned_share(profile_.travel, memory_.load) *
+                planned_share(profile_.travel, memory_.load) * memory_.flow.share *
                     available_flow_m3ps(profile_.implement, valid.engine_radps),
                 track_speed_max_mps(profile_.hst, valid.engine_radps));
 }
@@ -369,8 +368,8 @@ void DozerController::remember(const DozerValid& valid, const Motion& motion,
             memory_.off_track);
   const double got_mps =
       std::min(std::abs(motion.speed.state.speed_mps), std::abs(valid.velocity_mps));
-  const bool turning =
-      memory_.pass.phase == PassPhase::kStop || memory_.pass.phase == PassPhase::kTurn;
+  const PassPhase phase = memory_.pass.phase;
+  const bool turning = phase == PassPhase::kStop || phase == PassPhase::kTurn;
   next_stall(active, valid.speed_override_ratio > 0.0 && !turning,
              got_mps / (profile_.travel.speed_desired_mps * valid.speed_override_ratio),
              profile_.safety.stall_s, period_s, memory_.stall);

@@ -3,6 +3,7 @@
 /// The dozer's controller: one step from signals to commands, 100 times a second.
 
 #include "firmware/dozer/blade_control.hpp"
+#include "firmware/dozer/flow_share.hpp"
 #include "firmware/dozer/safety/dozer_gate.hpp"
 #include "firmware/dozer/safety/dozer_watch.hpp"
 #include "firmware/dozer/tilt_control.hpp"
@@ -84,6 +85,7 @@ class DozerController {
     std::array<TrackState, kTrackCount> track{};
     Foretelling foretelling;
     PushState load;
+    FlowShareState flow;
     FallState fall;
     PassState pass;
     PassSituation in_pass;
@@ -103,6 +105,11 @@ class DozerController {
   void choose_task(DozerValid& valid, double period_s);
   /// Takes in where the machine is: what the blade has cut, what lies ahead.
   void estimate(const DozerValid& valid, double period_s);
+  [[nodiscard]] FlowSituation flow_now(const DozerValid& valid) const {
+    return {{due_mps(memory_.servo[kBladeLift]), due_mps(memory_.servo[kBladeTilt])},
+            {valid.blade().stroke_m, valid.tilt().stroke_m},
+            memory_.last.drives.moving ? valid.engine_radps : 0.0};
+  }
   /// As it is measured, over its track.
   [[nodiscard]] Driving driving_of(const DozerValid& valid) const {
     const Stand stand{valid.height_m - raised_m(valid, valid.position_m), valid.pitch_rad};
@@ -131,7 +138,7 @@ class DozerController {
   /// Of the error that the task allows, what the blade may leave standing on purpose: the rest is
   /// for what nobody foresees.
   [[nodiscard]] double lift_most_m() const { return kLiftShare * profile_.grade.tolerance_m; }
-  static constexpr double kLiftShare = 0.31;
+  static constexpr double kLiftShare = 0.29;
 
   /// The same of the tilt.
   [[nodiscard]] TiltSituation tilt_at(const BladeSituation& at, double stroke_m) const;

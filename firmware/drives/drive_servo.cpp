@@ -72,9 +72,6 @@ void ask(const SpoolAnswers& answer, double asked_mps, double period_s, ServoSta
   servo.under_way_m = under_way_m(answer, servo);
 }
 
-/// What the drive should do now.
-double due_mps(const ServoState& servo) { return servo.lag_mps[0][1] + servo.lag_mps[1][1]; }
-
 double within(double value, double most) { return std::min(std::max(value, -most), most); }
 
 /// Most that a drive is behind which its load holds to that side.
@@ -103,6 +100,8 @@ double within_ends(const DriveRow& drive, const ServoState& servo, double wanted
 }
 
 }  // namespace
+
+double due_mps(const ServoState& servo) { return servo.lag_mps[0][1] + servo.lag_mps[1][1]; }
 
 void servo_at_rest(double stroke_m, ServoState& servo) {
   servo = {};

@@ -64,6 +64,9 @@ void release_servo(const DriveRow& drive, double stroke_m, double period_s, Serv
 void servo_after(const DriveRow& drive, EcuMode mode, double asked_mps, double stroke_m,
                  double period_s, ServoState& servo, int blocked_side = 0);
 
+/// What the drive should do now, by what was asked of it.
+[[nodiscard]] double due_mps(const ServoState& servo);
+
 /// Where the drive will be when what is under way has arrived, within its end stops: where a field
 /// has to be asked, so that neither lag nor dead time carries the machine past a bend. Where
 /// nothing stops a drive at its end, one that is beyond is seen there.

@@ -41,9 +41,10 @@ namespace {
 /// More than leakage and slip ever take.
 constexpr double kMostIntegral_mps = 0.4;
 constexpr double kMostAcceleration_mps2 = 2.0;
-/// Lag that oil and bus leave of a track's speed behind what is wanted: nothing to be made up for,
-/// or the machine brakes harder than it is told to.
-constexpr double kExpectedLag_s = 0.07;
+/// Lag that oil, bus and the ground's shear leave of a track's speed behind what is wanted: nothing
+/// to be made up for, or the machine brakes harder than it is told to. As braking sets in it is
+/// longer than later on.
+constexpr double kExpectedLag_s = 0.12;
 }  // namespace
 
 TrackCommand control_track(const DozerProfile& profile, const TrackState& last, double wanted_mps,
