@@ -44,7 +44,7 @@ constexpr double kLeastAsked_mps = 0.008;
 constexpr double kStands_mps = 0.003;
 constexpr double kStood_s = 0.04;
 constexpr double kStandingShare = 0.3;
-constexpr double kStandingRate_ps = 0.5;
+constexpr double kStandingRate_ps = 0.1;
 /// Until an opening and what is learnt at it agree.
 constexpr int kSteps = 4;
 
@@ -130,18 +130,20 @@ void feel_edge(const DriveRow& drive, const LearntSeen& now, double period_s, Le
 
 /// A cylinder that stands though its spool should be open beyond what makes its line press as hard
 /// as its load: its dead band ends farther out. At that opening the profile's valve would have set
-/// off; the real one has not at the one where its spool is, low-passed, so nothing is overshot.
-void feel_standing(const LearntSeen& mean, const LearntSeen& now, double way, double period_s,
+/// off; the real one has not at the one where its spool is. That is looked at as it is now: a mean
+/// still has what was before the spool came round. The edge goes on no faster than the line needs
+/// to show by its pressure what the spool has reached, so little is overshot.
+void feel_standing(const LearntSeen& mean, const LearntSeen& now, double period_s,
                    LearntValve& valve, LearntSide& side) {
-  const double asked = mean.asked.opening;
-  const bool is_open = std::min(way * now.opening, way * now.asked.opening) > kFeltOpening;
-  const double asked_mps = std::min(mean.asked.speed_mps, way * now.asked.speed_mps);
-  const bool stands = is_open && asked < kMostClosing && asked_mps > kLeastAsked_mps &&
+  const double asked = now.asked.opening;
+  const bool is_open = std::min(now.opening, asked) > kFeltOpening;
+  const double asked_mps = std::min(mean.asked.speed_mps, now.asked.speed_mps);
+  const bool stands = is_open && mean.asked.opening < kMostClosing && asked_mps > kLeastAsked_mps &&
                       std::abs(mean.speed_mps) < kStands_mps;
   valve.unmoved_s = stands ? valve.unmoved_s + period_s : 0.0;
-  if (valve.unmoved_s > kStood_s) {
+  if (stands_open(valve)) {
     const double edge =
-        (mean.opening - kSetsOffShare * asked - side.bend * curve(asked)) / (1.0 - asked);
+        (now.opening - kSetsOffShare * asked - side.bend * curve(asked)) / (1.0 - asked);
     const double farther =
         std::min(kStandingShare * (edge - side.edge), kStandingRate_ps * period_s);
     side.edge = std::min(side.edge + std::max(0.0, farther), kEdgeMost);
@@ -185,7 +187,7 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   const double way = extends ? 1.0 : -1.0;
   const LearntSeen mean = along(valve.seen, way);
   if (drive.spool.bypass_closes_at > 0.0) {
-    feel_standing(mean, now, way, period_s, valve, side);
+    feel_standing(mean, along(now, way), period_s, valve, side);
   }
   if (!steady || !may_be_compared(mean)) {
     return;
@@ -198,6 +200,8 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   learn(mean.opening - by_profile, by_profile, kOpeningNoise * kOpeningNoise + by_speed * by_speed,
         side);
 }
+
+bool stands_open(const LearntValve& valve) { return valve.unmoved_s > kStood_s; }
 
 double learnt_edge_ratio(const DriveRow& drive, const LearntValve& valve, bool extends) {
   const SpoolAnswer& answer = drive.answer.side(extends);

@@ -63,6 +63,10 @@ struct LearntValve {
 void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk& ask, bool usable,
                  double period_s, LearntValve& valve);
 
+/// A cylinder stands under a spool that should be open beyond what makes its line press as hard as
+/// its load; of a line whose bypass closes over the opening alone.
+[[nodiscard]] bool stands_open(const LearntValve& valve);
+
 /// The dead band's end on a side, from the profile's, as a share of the spool's travel.
 [[nodiscard]] double learnt_edge_ratio(const DriveRow& drive, const LearntValve& valve,
                                        bool extends);

@@ -63,6 +63,7 @@ void ExcavatorController::estimate_oil(const ExcavatorValid& valid, const Kinema
   for (int axis = 0; axis < 2; ++axis) {
     seen.asked_mps[axis] = memory_.last.asked_mps[static_cast<unsigned>(axis)];
     seen.expected_mps[axis] = memory_.expected_mps[axis];
+    seen.stands[axis] = stands_open(memory_.watch.drives.learnt[static_cast<unsigned>(axis)]);
   }
   HeldLoad& held = memory_.held;
   seen.yield_mpsn = held.yield_mpsn;

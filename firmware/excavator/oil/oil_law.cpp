@@ -70,8 +70,10 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
   }
   const double step = kHandOver_ps * kOilCycle_s;
   state.weight = std::clamp(state.weight + (leads ? step : -step), 0.0, 1.0);
-  const Eigen::Vector2d flow = modes.inverse * (next_flow_mps(gains.lag_s(), seen, state) -
-                                                given_way_mps(modes, seen, state));
+  const Eigen::Vector2d kept_mps = state.flow_error_mps;
+  const Eigen::Vector2d asked_mps =
+      next_flow_mps(gains.lag_s(), seen, state) - given_way_mps(modes, seen, state);
+  const Eigen::Vector2d flow = modes.inverse * seen.stands.select(-kept_mps, asked_mps);
   const Eigen::Vector2d yield_mpn = modes.stiffness_npm.cwiseInverse();
   const auto compression = [&](const Eigen::Vector2d& force_n) -> Eigen::Vector2d {
     return modes.inverse * yield_mpn.cwiseProduct(force_n);
@@ -106,8 +108,9 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
   state.speed_mps = modes.shape * speed;
   state.force_n = modes.stiffness_npm.cwiseProduct(modes.shape * oil);
   state.load_n = modes.stiffness_npm.cwiseProduct(modes.shape * load);
-  state.flow_error_mps =
+  const Eigen::Vector2d error_mps =
       (modes.shape * error).cwiseMax(-kFlowErrorMost_mps).cwiseMin(kFlowErrorMost_mps);
+  state.flow_error_mps = seen.stands.select(kept_mps, error_mps);
 }
 
 Eigen::Vector2d oil_correction_mps(const OilGains& gains, const OilModes& modes,

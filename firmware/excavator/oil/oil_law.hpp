@@ -40,6 +40,9 @@ struct OilSeen {
   Eigen::Vector2d opened_for_n = Eigen::Vector2d::Zero();
   Eigen::Vector2d yield_mpsn = Eigen::Vector2d::Zero();
   bool force_known = false;
+  /// Its spool is open, but its line does not press as hard as its load yet: no flow moves it, and
+  /// none is missing.
+  Eigen::Array<bool, 2, 1> stands = Eigen::Array<bool, 2, 1>::Constant(false);
 };
 
 /// Of the measured pressures of boom and arm; known where both axes' pressures are.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "firmware/drives/learnt_valve.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
@@ -84,12 +85,78 @@ void the_observer_knows_a_flow_that_gives_way(void**) {
   assert_true(std::abs(error_mps(5e-7)) < 0.015);
 }
 
+/// A drive that stands since its line does not press as hard as its load yet shows no flow that is
+/// missing: what else would be taken for that comes on top once it sets off. The other one does.
+void what_stands_shows_no_missing_flow(void**) {
+  const OilGains gains{OilDesign{}};
+  const KinematicState now = ExcavatorKinematics(machine().geometry).state({0.6, 0.7, 0.5});
+  std::array<LoadState, kDriveCount> load{};
+  load.fill({8e6, 5e6});
+  const OilModes modes = oil_modes(machine().oil, machine().geometry, now, {load.data(), 2}, 0.0);
+  const auto after = [&](bool stands) {
+    OilState state;
+    OilSeen seen;
+    seen.force_known = true;
+    seen.stands[0] = stands;
+    next_oil(gains, modes, seen, true, true, state);
+    seen.asked_mps = {0.05, 0.02};
+    seen.expected_mps = seen.asked_mps;
+    for (int n = 0; n < 100; ++n) {
+      next_oil(gains, modes, seen, true, true, state);
+    }
+    return state;
+  };
+  assert_true(after(false).flow_error_mps[0] < -0.02);
+  const OilState stood = after(true);
+  assert_near(stood.flow_error_mps[0], 0.0, 0.0);
+  assert_near(stood.speed_mps[0], 0.0, 0.005);
+  assert_true(stood.flow_error_mps[1] < -0.005);
+}
+
+/// A drive that has come round and stands: its edge is looked for at once, and no faster than its
+/// line can show by its pressure what the spool has reached.
+void an_edge_is_looked_for_at_once_and_steadily(void**) {
+  const ExcavatorBank bank = excavator_bank(machine());
+  DriveRow boom = bank.row[0];
+  boom.spool.bypass_closes_at = 0.25;
+  const double first = boom.answer.extend.edge();
+  constexpr double kOpening = 0.22;
+  LearntValve valve;
+  std::array<double, 60> edge{};
+  TwoLags spool;
+  bool told = false;
+  for (int n = 0; n < 160; ++n) {
+    const bool back = n < 100;
+    const double asked = back ? -kOpening : kOpening;
+    const double beyond = back ? 0.0 : opening_beyond(valve.extend, kOpening);
+    spool.first_mps += 0.4 * (asked + beyond - spool.first_mps);
+    spool.second_mps += 0.4 * (spool.first_mps - spool.second_mps);
+    ValidDrive seen;
+    seen.stroke_m = 0.5;
+    seen.spool_ratio = std::copysign(first + (1.0 - first) * std::abs(spool.second_mps), asked);
+    next_learnt(boom, seen, {back ? -0.005 : 0.03, asked}, true, 0.01, valve);
+    told = told || stands_open(valve);
+    if (!back) {
+      edge[static_cast<unsigned>(n - 100)] = valve.extend.edge;
+    }
+  }
+  assert_true(told);
+  assert_true(edge[20] > 0.004 && edge[50] > 0.0345);
+  for (unsigned n = 1; n < edge.size(); ++n) {
+    assert_true(edge[n] - edge[n - 1] < 0.1 * 0.01 + 1e-9);
+  }
+  next_learnt(boom, {}, {}, false, 0.01, valve);
+  assert_false(stands_open(valve));
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_giving_line_is_opened_for_load_and_push),
       cmocka_unit_test(the_observer_knows_a_flow_that_gives_way),
+      cmocka_unit_test(what_stands_shows_no_missing_flow),
+      cmocka_unit_test(an_edge_is_looked_for_at_once_and_steadily),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
