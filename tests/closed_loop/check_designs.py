@@ -131,8 +131,9 @@ def profile_takes_what_was_written(graben, folder, machines):
             stream.write(content)
     profile = os.path.join(folder, "own.toml")
     again = figures_of(graben, os.path.join(folder), "--profile", profile)
-    for key in ("max_error_true_m", "time_s"):
-        assert abs(again[key] - figures[key]) < 1e-3 * max(1.0, figures[key]), key
+    # Heights rounded to 1 um move what the pump is learnt to give.
+    for key, most in (("max_error_true_m", 0.2e-3), ("time_s", 0.3)):
+        assert abs(again[key] - figures[key]) < most, f"{key}: {again[key]}, {figures[key]}"
     hashes = []
     for line in ("0.0 0.0\n10.0 0.0\n27.0 -0.35\n", "0.0 0.0\n10.5 0.0\n27.0 -0.35\n"):
         with open(os.path.join(folder, "design.txt"), "w", encoding="utf-8") as stream:
@@ -219,7 +220,7 @@ def ground_that_resists(graben, folder):
         row = re.search(rf"(?m)^trench, walls of 1 m +{soil} +1 +0((?: +[\d.]+)+)$", done.stdout)
         _, cut, left, halt, deceleration, passes, time = (float(value) for value in row[1].split())
         assert 0.1 < cut < 20.0 and 0.1 < left < 25.0 and halt < 1.0, (seed, done.stdout)
-        assert 0.5 < deceleration < 1.5 and 2 <= passes <= 4 and 80 < time < 170, (seed, done.stdout)
+        assert 0.5 < deceleration < 1.5 and 2 <= passes <= 4 and 80 < time < 240, (seed, done.stdout)
 
 
 def main():
