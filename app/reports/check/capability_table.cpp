@@ -60,7 +60,7 @@ constexpr Capability kCapabilities[] = {
        return profile.pump[0].regulator.kind == PumpKind::kLoadSensing;
      }},
     {"a told swash", "pumps under negative flow control", "SwashMissing, SwashDisagrees",
-     "45.8 / 73.1; -; 27.2 / 47.7; -",
+     "43.5 / 66.6; -; 27.3 / 45.2; -",
      [](const ExcavatorProfile& profile) {
        return profile.pump[0].regulator.kind == PumpKind::kNegativeFlow;
      }},
