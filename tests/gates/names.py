@@ -23,7 +23,7 @@ TABLE = {
     "initializer_list": "initializer_list",
     "limits": "numeric_limits",
     "type_traits": "decay_t has_unique_object_representations_v is_floating_point_v",
-    "Eigen/Core": "Eigen::Matrix Eigen::Matrix2d Eigen::Matrix3d Eigen::Vector2d Eigen::Vector3d Eigen::Vector4d",
+    "Eigen/Core": "Eigen::Array Eigen::Matrix Eigen::Matrix2d Eigen::Matrix3d Eigen::Vector2d Eigen::Vector3d Eigen::Vector4d",
 }
 HEADER_OF = {name if "::" in name else f"std::{name}": header
              for header, names in TABLE.items() for name in names.split()}

@@ -136,7 +136,7 @@ test('both ends are off the design by what the controller says and the simulatio
   }
 });
 
-test('the ground is left as the tilted edge had it, from end to end', () => {
+test('the ground is left as the tilted edge had it', () => {
   for (const run of runs()) {
     const machine = dozer_of(run);
     const store = store_of_run(run);
@@ -152,7 +152,8 @@ test('the ground is left as the tilted edge had it, from end to end', () => {
       (slope_at(time_s) > slope_at(best) ? time_s : best));
     history.field.show(now_s, () => undefined);
     const {across} = dozer_across_now(machine, store, now_s);
-    const ground = ground_behind(history.field, across!, [-1.2, 1.2]);
+    // On a curve the outermost cells below the edge itself are not passed yet.
+    const ground = ground_behind(history.field, across!, [-1, 1]);
     const [a, b] = [across!.left.at_m, across!.right.at_m];
     assert.ok(Math.abs(slope_of([a, b])) > 0.02, `${slope_of([a, b])}`);
     for (const [u, z] of ground) {
