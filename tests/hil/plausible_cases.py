@@ -170,8 +170,8 @@ EVERY += [Case(63, machine, (), (), 0.020, at_s=2.1, judged=judged, seconds=2.9,
               (DIG, "crash", ("ABRT", "SEGV", "BUS", "FPE", "ILL", "SYS", "TRAP", "XCPU")),
               (GRADE, "request", ("TERM",)), (GRADE, "crash", ("SEGV",)))
           for name in names]
-# For each day: of each row and way to judge the first.
-CASES = list({(case.row, case.judged): case for case in reversed(EVERY)}.values())[::-1]
+# For each day: of each row and way to judge the first, but for what needs the processor for itself.
+CASES = list({(case.row, case.judged): case for case in reversed(EVERY) if case.machine not in ALONE}.values())[::-1]
 
 
 def lanes(cases: list[Case], count: int) -> list[int]:
