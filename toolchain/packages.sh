@@ -44,9 +44,9 @@ graben_missing() {
     # For the counts of instructions.
     has_command qemu-x86_64 || echo qemu-user
   fi
-  if [ "$1" = fuzz ]; then
+  if [ "$1" = check ] || [ "$1" = fuzz ]; then
     has_command clang++-14 || echo clang-14
-    # libFuzzer and the sanitizers' runtimes; the architecture is in the file's name.
+    # The sanitizers' runtimes and libFuzzer; the architecture is in the file's name.
     ls /usr/lib/llvm-14/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a >/dev/null 2>&1 ||
       echo libclang-rt-14-dev
   fi

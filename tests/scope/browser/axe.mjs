@@ -4,6 +4,11 @@
 import {readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 
+/// Colour schemes and sizes of screen to look at: all, or for each day the light one at the largest and the smallest
+/// and the dark one at the largest. A look takes two seconds.
+export const looks_at_each = (sizes) => process.env.GRABEN_LOOKS === 'every' ? [['light', sizes], ['dark', sizes]]
+  : [['light', [sizes[0], sizes.at(-1)]], ['dark', [sizes[0]]]];
+
 const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 /// The page's context has to bypass the page's own policy.

@@ -7,11 +7,11 @@ import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
-import {axe} from './axe.mjs';
+import {axe, looks_at_each} from './axe.mjs';
 import {look, open_browser, open_page, rest, run_scenarios, serve, SIZES, until} from './harness.mjs';
 
 const [out, graben, only] = process.argv.slice(2);
-const browser = await open_browser();
+const browser = await open_browser({pictures_ps: Infinity});
 mkdirSync(out, {recursive: true});
 for (const command of ['dig', 'grade']) {
   execFileSync(graben, [command, '--out', out], {stdio: 'ignore'});
@@ -278,7 +278,7 @@ async function worst_error() {
 async function axe_clean() {
   const found = [];
   let looks = 0;
-  for (const colorScheme of ['light', 'dark']) {
+  for (const [colorScheme, sizes] of looks_at_each(SIZES)) {
     const context = await browser.newContext({reducedMotion: 'reduce', colorScheme, bypassCSP: true});
     const page = await context.newPage();
     await page.goto(url_of('dig', '#t=8&b=3&b=8 here'));
@@ -287,7 +287,7 @@ async function axe_clean() {
     await page.getByRole('button', {name: 'Plot Cycle time'}).click();
     found.push(...(await axe(page)).map((words) => `chooser ${colorScheme}: ${words}`));
     await page.getByRole('button', {name: 'A new plot'}).click();
-    for (const [width, height] of SIZES) {
+    for (const [width, height] of sizes) {
       await page.setViewportSize({width, height});
       await page.locator('.xy-plots').scrollIntoViewIfNeeded();
       await until('x-y plots are drawn', async () => (await page.locator('.xy-host svg').count()) > 0);

@@ -10,18 +10,35 @@ import {chromium} from 'playwright-core';
 const BROWSERS = ['/usr/bin/chromium', '/usr/bin/chromium-browser'];
 /// WebGL by the processor, where there is no graphics card; a container's root has no sandbox.
 const BROWSER_OPTIONS = ['--no-sandbox', '--enable-unsafe-swiftshader'];
-const PATIENCE_MS = 60_000;
+/// A starved machine is slow, not wrong.
+const PATIENCE_MS = 120_000;
 /// What ctest takes for a test that could not be tried.
 const SKIPPED = 77;
 
-/// The browser, or the end of the process: skipped aloud, and failed where CI=true.
-export async function open_browser() {
+/// Of a page's own script, so that a picture is drawn so many times a second at most: without a graphics card
+/// each takes as long as anything that is tried here.
+function draw_seldom(pictures_ps) {
+  const next = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (draw) => setTimeout(() => next(draw), 1000 / pictures_ps);
+}
+
+/// The browser, or the end of the process: skipped aloud, and failed where CI=true. `pictures_ps` is how often a page
+/// may draw in a second; Infinity: as the screen does.
+export async function open_browser({pictures_ps = 10} = {}) {
   const executablePath = BROWSERS.find(existsSync);
   if (executablePath === undefined) {
     console.log('scope: no Chromium here (Debian: chromium); the page is NOT driven');
     process.exit(process.env.CI === 'true' ? 1 : SKIPPED);
   }
-  return chromium.launch({executablePath, args: BROWSER_OPTIONS});
+  const browser = await chromium.launch({executablePath, args: BROWSER_OPTIONS});
+  const new_context = browser.newContext.bind(browser);
+  browser.newContext = async (...options) => {
+    const context = await new_context(...options);
+    context.setDefaultTimeout(PATIENCE_MS);
+    if (pictures_ps < Infinity) await context.addInitScript(draw_seldom, pictures_ps);
+    return context;
+  };
+  return browser;
 }
 
 const started = new Set();
@@ -63,7 +80,6 @@ export async function open_page(browser, url, size = {width: 1400, height: 900})
   const context = await browser.newContext({viewport: size, reducedMotion: 'reduce'});
   const page = await context.newPage();
   page.problems = [];
-  page.setDefaultTimeout(PATIENCE_MS);
   page.on('pageerror', (error) => page.problems.push(`error: ${error.message}`));
   page.on('console', (line) => {
     if (line.type() === 'error') page.problems.push(`console: ${line.text()}`);

@@ -6,12 +6,12 @@ import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {axe} from './axe.mjs';
+import {axe, looks_at_each} from './axe.mjs';
 import {open_browser, open_page, rest, run_scenarios, serve, SIZES, until} from './harness.mjs';
 import {tap} from './tap.mjs';
 
 const [out, graben, only] = process.argv.slice(2);
-const browser = await open_browser();
+const browser = await open_browser({pictures_ps: Infinity});
 mkdirSync(out, {recursive: true});
 for (const command of ['dig', 'grade', 'autodig']) {
   execFileSync(graben, [command, '--out', out], {stdio: 'ignore'});
@@ -346,12 +346,12 @@ async function axe_clean() {
   let looks = 0;
   for (const source of [['--sim', 'grade'], ['--sim', 'autodig']]) {
     const server = await scope(...source);
-    for (const colorScheme of ['light', 'dark']) {
+    for (const [colorScheme, sizes] of looks_at_each(SIZES)) {
       const context = await browser.newContext({colorScheme, bypassCSP: true});
       const page = await context.newPage();
       await page.goto(view(server));
       await active(page);
-      for (const [width, height] of SIZES) {
+      for (const [width, height] of sizes) {
         await page.setViewportSize({width, height});
         await rest(300);
         found.push(...(await axe(page)).map((words) => `${source[1]} ${width} ${colorScheme}: ${words}`));
@@ -363,7 +363,7 @@ async function axe_clean() {
     await server.stop();
   }
   // With a fault, and with what is old greyed.
-  for (const colorScheme of ['light', 'dark']) {
+  for (const [colorScheme, sizes] of looks_at_each(SIZES)) {
     const server = await scope('--sim', 'dig');
     const other = await open_page(browser, server.url);
     const context = await browser.newContext({colorScheme, bypassCSP: true});
@@ -376,7 +376,7 @@ async function axe_clean() {
     for (const state of ['Fault', 'No server']) {
       if (state === 'No server') await server.stop();
       await shows(state);
-      for (const [width, height] of SIZES) {
+      for (const [width, height] of sizes) {
         await page.setViewportSize({width, height});
         await rest(300);
         found.push(...(await axe(page)).map((words) => `${state} ${width} ${colorScheme}: ${words}`));

@@ -27,7 +27,7 @@ async function operator(browser) {
   return {server, page};
 }
 
-const browser = await open_browser();
+const browser = await open_browser({pictures_ps: Infinity});
 const {server, page} = await (which === 'operator' ? operator : scope)(browser);
 await page.screenshot({path: `${file}.part.png`});
 await rename(`${file}.part.png`, file);
