@@ -101,6 +101,15 @@ def our_inputs(entry: dict) -> tuple[list[pathlib.Path], bool]:
     return sorted(found), heavy
 
 
+def touched_lately(commits: int) -> set[pathlib.Path]:
+    """What these commits and the work tree touched; nothing is known of a tree without git."""
+    names = subprocess.run(["git", "-C", str(root), "log", f"-{commits}", "--name-only", "--format="],
+                           stdout=subprocess.PIPE, text=True, check=True).stdout
+    names += subprocess.run(["git", "-C", str(root), "diff", "--name-only", "HEAD"],
+                            stdout=subprocess.PIPE, text=True, check=True).stdout
+    return {(root / name).resolve() for name in names.splitlines() if name}
+
+
 def key_of(entry: dict, inputs: list[pathlib.Path]) -> str:
     digest = hashlib.sha256(f"{version}\n{entry['command']}".encode())
     for path in (config, pathlib.Path(__file__), *inputs):
@@ -201,6 +210,8 @@ parser = tree.arguments(__doc__)
 parser.add_argument("--build", required=True, type=pathlib.Path)
 parser.add_argument("--cache", required=True, type=pathlib.Path)
 parser.add_argument("--leave-out", metavar="FOLDER", help="whose sources are not read; it is said")
+parser.add_argument("--recent", type=int, metavar="N",
+                    help="only sources that the last N commits touched, or a header of theirs; the others are counted")
 parser.add_argument("--config", type=pathlib.Path, help="another one than the tree's .clang-tidy")
 arguments = parser.parse_args()
 root = arguments.root.resolve()
@@ -219,10 +230,15 @@ if arguments.leave_out:
     kept = [e for e in entries if not pathlib.Path(e["path"]).is_relative_to(root / arguments.leave_out)]
     print(f"tidy: {len(entries) - len(kept)} sources of {arguments.leave_out}/ are NOT read")
     entries = kept
+if arguments.recent and (root / ".git").exists():
+    touched = touched_lately(arguments.recent)
+    kept = [e for e in entries if not touched.isdisjoint(our_inputs(e)[0])]
+    print(f"tidy: {len(entries) - len(kept)} sources that the last {arguments.recent} commits left are NOT read")
+    entries = kept
 with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     # A header's finding comes up in every batch that includes it; once is enough.
     problems = list(dict.fromkeys(text for texts in pool.map(check, batches_of(entries))
                                   for text in texts))
 problems += unseen(compiled)
 print(f"tidy: {sum(passes)} sources read in {len(passes)} passes")
-tree.report("tidy", problems, len(entries), "sources")
+tree.report("tidy", problems, len(compiled), "sources")

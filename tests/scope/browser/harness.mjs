@@ -2,6 +2,7 @@
 /// A browser, servers of the scope, and how a test reads the page. Everything that is started here
 /// ends with the test.
 
+import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
 import {existsSync, mkdirSync} from 'node:fs';
 import {join} from 'node:path';
@@ -133,6 +134,23 @@ export async function until(what, holds, patience_ms = PATIENCE_MS) {
     if (found) return found;
     if (Date.now() - begin > patience_ms) throw new Error(`not within ${patience_ms} ms: ${what}`);
     await new Promise((done) => setTimeout(done, 50));
+  }
+}
+
+/// Until a report's log is read to its end.
+export const all_there = (page) => until('the log is whole', async () => {
+  const seen = await look(page);
+  return seen.frames > 1000 && seen.loaded === 1;
+});
+
+/// A page of its own for each size, judged once it is ready; it may complain of nothing.
+export async function at_each_size(browser, url, ready, judge) {
+  for (const [width, height] of SIZES) {
+    const page = await open_page(browser, url, {width, height});
+    await ready(page);
+    await judge(page, `${width} x ${height}`, {width, height});
+    assert.deepEqual(page.problems, []);
+    await page.context().close();
   }
 }
 

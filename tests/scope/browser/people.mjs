@@ -10,7 +10,8 @@ import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 import {axe, looks_at_each} from './axe.mjs';
 import {
-  look, more_frames, open_browser, open_page, pressable, rest, run_scenarios, serve, SIZES, until,
+  all_there, at_each_size, look, more_frames, open_browser, open_page, pressable, rest, run_scenarios, serve, SIZES,
+  until,
 } from './harness.mjs';
 
 const [out, graben, only] = process.argv.slice(2);
@@ -32,26 +33,12 @@ execFileSync(graben, ['identify', '--log', own_log, join(out, 'another', 'dig.lo
 const scope = (...options) => serve(graben, ['scope', '--port', '0', ...options]);
 const clean = (page) => assert.deepEqual(page.problems, []);
 const url_of = (name) => pathToFileURL(join(out, `${name}.html`)).href;
-const all_there = (page) => until('the log is whole', async () => {
-  const seen = await look(page);
-  return seen.frames > 1000 && seen.loaded === 1;
-});
 const active = (page) => page.waitForFunction(() => window.grabenScope?.mode() === 'Active');
-
-async function at_each_size(url, ready, judge) {
-  for (const [width, height] of SIZES) {
-    const page = await open_page(browser, url, {width, height});
-    await ready(page);
-    await judge(page, `${width} x ${height}`, {width, height});
-    clean(page);
-    await page.context().close();
-  }
-}
 
 /// Play and Stop, not under the toolbar, and not a long way down.
 async function in_reach() {
   const server = await scope('--sim', 'dig');
-  await at_each_size(server.url, active, async (page, size) => {
+  await at_each_size(browser, server.url, active, async (page, size) => {
     assert.ok(await pressable(page, 'Pause'), `${size}: Pause cannot be pressed`);
     assert.ok(await pressable(page, 'Stop machine'), `${size}: Stop cannot be pressed`);
     // Paused it has most of them, and all are in sight.
@@ -85,7 +72,7 @@ async function in_reach() {
 
 async function scene_is_large_enough() {
   const heights = [];
-  await at_each_size(url_of('dig'), all_there,
+  await at_each_size(browser, url_of('dig'), all_there,
     async (page, size, {height}) => {
       const box = await page.locator('.scene-host').boundingBox();
       heights.push(`${size}: ${Math.round(box.height)}`);
@@ -96,7 +83,7 @@ async function scene_is_large_enough() {
 
 /// Key and scale have a ground that keeps 4.5 to 1 whatever the machine is behind them.
 async function legend_has_a_ground() {
-  await at_each_size(url_of('dig'), all_there,
+  await at_each_size(browser, url_of('dig'), all_there,
     async (page, size) => {
       const alphas = await page.locator('.scene-corner > *').evaluateAll((nodes) => nodes.map((node) => {
         const found = /\/ ([0-9.]+)\)|rgba\(.*, ([0-9.]+)\)/.exec(getComputedStyle(node).backgroundColor);
@@ -231,7 +218,7 @@ async function own_lateness() {
 
 /// The first Tab, and Enter: the panel is in sight and has the focus.
 async function skip_link() {
-  await at_each_size(url_of('dig'), all_there,
+  await at_each_size(browser, url_of('dig'), all_there,
     async (page, size) => {
       await page.keyboard.press('Tab');
       const link = page.locator('.skip');

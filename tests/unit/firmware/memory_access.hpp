@@ -20,6 +20,7 @@ struct DozerMemoryAccess {
   static auto& speed(DozerController& controller) { return controller.memory_.speed_mps; }
   static auto& speed_state(DozerController& controller) { return controller.memory_.speed; }
   static auto& gate(DozerController& controller) { return controller.memory_.gate; }
+  static auto& flow(DozerController& controller) { return controller.memory_.flow; }
 };
 
 }  // namespace graben

@@ -55,6 +55,24 @@ void before_the_trench_it_slows_down_and_its_blade_follows(void**) {
   assert_true(grading.blade.angle_rad(grading.stroke_m) < -0.1);
 }
 
+double slowest_into_the_trench_mps(double share) {
+  Grading grading;
+  double slowest_mps = 9.0;
+  while (grading.position_m < 2.5) {
+    DozerMemoryAccess::flow(grading.controller).share = share;
+    grading.run(1);
+    if (grading.position_m > 1.0) {
+      slowest_mps = std::min(slowest_mps, grading.outputs.status.wanted_speed_mps);
+    }
+  }
+  return slowest_mps;
+}
+
+void what_its_pump_does_not_give_is_not_planned_with(void**) {
+  const double whole_mps = slowest_into_the_trench_mps(1.0);
+  assert_near(slowest_into_the_trench_mps(0.8), 0.8 * whole_mps, 0.05 * whole_mps);
+}
+
 void the_operators_share_of_the_speed_is_kept(void**) {
   Grading grading;
   for (int n = 0; n < 300; ++n) {
@@ -280,6 +298,7 @@ int main() {
       cmocka_unit_test(before_anything_is_received_it_is_neutral_and_braked),
       cmocka_unit_test(it_gets_faster_at_its_rate_and_lets_the_brake_go),
       cmocka_unit_test(before_the_trench_it_slows_down_and_its_blade_follows),
+      cmocka_unit_test(what_its_pump_does_not_give_is_not_planned_with),
       cmocka_unit_test(the_operators_share_of_the_speed_is_kept),
       cmocka_unit_test(without_a_task_it_stands),
       cmocka_unit_test(released_it_is_neutral_in_the_same_cycle),
