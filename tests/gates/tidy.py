@@ -102,11 +102,11 @@ def our_inputs(entry: dict) -> tuple[list[pathlib.Path], bool]:
 
 
 def touched_lately(commits: int) -> set[pathlib.Path]:
-    """What these commits and the work tree touched; nothing is known of a tree without git."""
-    names = subprocess.run(["git", "-C", str(root), "log", f"-{commits}", "--name-only", "--format="],
-                           stdout=subprocess.PIPE, text=True, check=True).stdout
-    names += subprocess.run(["git", "-C", str(root), "diff", "--name-only", "HEAD"],
-                            stdout=subprocess.PIPE, text=True, check=True).stdout
+    """What these commits, a merge as one, and the work tree touched."""
+    names = ""
+    for words in (["log", f"-{commits}", "--first-parent", "--name-only", "--format="], ["diff", "--name-only", "HEAD"],
+                  ["ls-files", "--others", "--exclude-standard"]):
+        names += subprocess.run(["git", "-C", str(root), *words], stdout=subprocess.PIPE, text=True, check=True).stdout
     return {(root / name).resolve() for name in names.splitlines() if name}
 
 
@@ -232,7 +232,7 @@ if arguments.leave_out:
     entries = kept
 if arguments.recent and (root / ".git").exists():
     touched = touched_lately(arguments.recent)
-    kept = [e for e in entries if not touched.isdisjoint(our_inputs(e)[0])]
+    kept = [e for e in entries if config in touched or not touched.isdisjoint(our_inputs(e)[0])]
     print(f"tidy: {len(entries) - len(kept)} sources that the last {arguments.recent} commits left are NOT read")
     entries = kept
 with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -241,4 +241,5 @@ with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
                                   for text in texts))
 problems += unseen(compiled)
 print(f"tidy: {sum(passes)} sources read in {len(passes)} passes")
+print(f"tidy: {len(entries)} of {len(compiled)} sources judged")
 tree.report("tidy", problems, len(compiled), "sources")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults that look healthy frame by frame, and signals, on a real kernel's bus:
 plausible.py OUT PROGRAM... [--every] [--only TEXT] runs the deployed process beside the simulated machine, once
-for each row of the fault table, or with --every once for each machine that can have it and each signal, and prints
-how long after the fault it was named, with which fault of EcuStatus, and how long after that all commands on the
-bus were neutral."""
+for each row of the fault table that only a kernel can show, or with --every once for each machine that can have it
+and each signal, and prints how long after the fault it was named, with which fault of EcuStatus, and how long after
+that all commands on the bus were neutral."""
 
 import pathlib
 import re

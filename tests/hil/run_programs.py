@@ -18,7 +18,7 @@ def run(script: str, out: pathlib.Path, programs: list[pathlib.Path],
         check: Callable[[pathlib.Path], list[str]], timeout_s: float, controllers: int = 0,
         extra: dict[str, pathlib.Path] | None = None, modules: tuple[str, ...] = ()) -> int:
     scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers, modules=modules,
-                        timeout_s=timeout_s, patience_s=max(600.0, 4.0 * timeout_s),
+                        timeout_s=timeout_s, patience_s=max(1200.0, 8.0 * timeout_s),
                         files={"ecu.sh": HERE / "ecu.sh", **(extra or {}),
                                **{file.name: file for pattern in ("*.toml", "tasks/*.toml")
                                   for file in PROFILES.glob(pattern)}})

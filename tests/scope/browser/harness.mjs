@@ -21,6 +21,7 @@ const SKIPPED = 77;
 function draw_seldom(pictures_ps) {
   const next = window.requestAnimationFrame.bind(window);
   window.requestAnimationFrame = (draw) => setTimeout(() => next(draw), 1000 / pictures_ps);
+  window.cancelAnimationFrame = clearTimeout.bind(window);
 }
 
 /// The browser, or the end of the process: skipped aloud, and failed where CI=true. `pictures_ps` is how often a page
@@ -119,7 +120,7 @@ export function look(page) {
 export async function more_frames(page, count) {
   const {frames} = await look(page);
   await page.waitForFunction((wanted) => window.grabenScope.frames() >= wanted, frames + count,
-    {timeout: 90_000});
+    {timeout: 3 * PATIENCE_MS});
 }
 
 export function distance(a, b) {

@@ -74,7 +74,8 @@ const session = await page.context().newCDPSession(page);
 if (slow === '--slow') await session.send('Emulation.setCPUThrottlingRate', {rate: SLOWER});
 await page.waitForFunction((frames) => window.grabenScope?.frames() === frames
   && window.grabenScope.loaded() === 1, CYCLES * MESSAGES, {polling: 20, timeout: OTHERS * OPEN_MS})
-  .catch(() => assert.fail(`all is not shown after ${OTHERS * OPEN_MS} ms, ${OPEN_MS} ms are wanted`));
+  .catch((error) => assert.fail(error.name !== 'TimeoutError' ? error
+    : `all is not shown after ${OTHERS * OPEN_MS} ms, ${OPEN_MS} ms are wanted`));
 const open_ms = Date.now() - began;
 
 // As a hand does it: the slider goes to another place with every picture.

@@ -132,6 +132,8 @@ long resident_bytes() {
 /// What the sanitizer keeps of what was freed is not what the server keeps.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kMemoryIsCounted = false;
+#elif defined(__has_feature)
+constexpr bool kMemoryIsCounted = !__has_feature(address_sanitizer);
 #else
 constexpr bool kMemoryIsCounted = true;
 #endif
