@@ -34,7 +34,7 @@ async function open_moving(url, size = {width: 1400, height: 900}) {
     window.wasHeld = false;
     new MutationObserver(() => {
       window.wasHeld ||= window.grabenScope?.loaded() === 1
-        && document.querySelector('.reason').textContent.startsWith('Held by ');
+        && document.querySelector('.reason')?.textContent.startsWith('Held by ') === true;
     }).observe(document, {subtree: true, childList: true, characterData: true});
   });
   await page.goto(url);
