@@ -46,7 +46,7 @@ Eigen::Vector2d edge_m(const LoaderProfile& profile, const plant::LoaderPlant& p
          (Eigen::Vector2d(profile.arm_m, 0.0) + bucket * Eigen::Vector2d(0.0, -profile.bucket_m));
 }
 
-void cuts_at_the_pumps_limit(void**) {
+TEST(cuts_at_the_pumps_limit) {
   Run run;
   const LoaderProfile profile;
   const Eigen::Vector2d along = (profile.cut_to_m - profile.cut_from_m).normalized();
@@ -96,7 +96,7 @@ void stops(Fault fault, const std::function<void(Rig&)>& strike,
   assert_int_equal(run.status().mode, EcuMode::kActive);
 }
 
-void stops_on_five_faults(void**) {
+TEST(stops_on_five_faults) {
   const auto spoil = [](std::uint32_t id, const std::function<bool(CanFrame&)>& edit) {
     return [=](Rig& rig) {
       rig.bus.set_fault_hook([=](CanFrame& frame, auto*) { return frame.id != id || edit(frame); });
@@ -120,8 +120,4 @@ void stops_on_five_faults(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(cuts_at_the_pumps_limit),
-                              cmocka_unit_test(stops_on_five_faults)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -66,7 +66,7 @@ Discrete plain_gain(double gain) {
 }
 
 /// S - T = (z - 1 - k) / (z - 1 + k) is farthest out at Nyquist's frequency, z = -1.
-void a_sum_has_the_margins_that_a_hand_finds(void**) {
+TEST(a_sum_has_the_margins_that_a_hand_finds) {
   const LoopMargins margins = loop_margins(plain_gain(0.5), two_sums());
   assert_near(margins.spectral_radius, 0.5, 1e-12);
   for (const ChannelMargin& channel : margins.channel) {
@@ -78,7 +78,7 @@ void a_sum_has_the_margins_that_a_hand_finds(void**) {
 }
 
 /// z (z - 1) + k has its roots on the circle at k = 1; |L| is 1 where 2 sin(turn / 2) is k.
-void a_late_sum_too(void**) {
+TEST(a_late_sum_too) {
   constexpr double kGain = 0.4;
   const LoopMargins margins = loop_margins(plain_gain(kGain), two_late_sums());
   const double turn = 2.0 * std::asin(0.5 * kGain);
@@ -93,7 +93,7 @@ void a_late_sum_too(void**) {
 }
 
 /// Those that the plant's own ring has, test_modes.cpp.
-void modes_are_those_of_the_plant(void**) {
+TEST(modes_are_those_of_the_plant) {
   const Eigen::Vector3d real = modes_hz(machine().plant, middle_m(), truth_of(1.4, 0.02, 0));
   assert_near(real[0], 3.1, 0.1);
   assert_near(real[1], 5.5, 0.2);
@@ -106,7 +106,7 @@ void modes_are_those_of_the_plant(void**) {
 }
 
 /// Led by a duty of 1 m/s for a second, what has flowed is a metre, less what the spool lags.
-void a_duty_becomes_flow(void**) {
+TEST(a_duty_becomes_flow) {
   for (const int late_cycles : {0, 2}) {
     const Discrete truth =
         linkage_on_oil(machine().plant, middle_m(), truth_of(1.4, 0.02, late_cycles));
@@ -136,7 +136,7 @@ double far_off(const LawInTime& law, const Discrete& truth, int from, int cycles
 
 /// Runs in time fade, or grow, as the eigenvalues of the matrices say. What the bucket's servo
 /// takes back, at 2 / s, no duty excites.
-void runs_in_time_go_as_the_eigenvalues_say(void**) {
+TEST(runs_in_time_go_as_the_eigenvalues_say) {
   const OilGains gains{OilDesign{}};
   const LawInTime law(machine().profile, gains, middle_m());
   const Discrete matrices = as_matrices(law);
@@ -166,7 +166,7 @@ void runs_in_time_go_as_the_eigenvalues_say(void**) {
 }
 
 /// The law's matrices are the law.
-void matrices_step_as_the_law_does(void**) {
+TEST(matrices_step_as_the_law_does) {
   const OilGains gains{OilDesign{}};
   const LawInTime law(machine().profile, gains, middle_m());
   const Discrete matrices = as_matrices(law);
@@ -182,7 +182,7 @@ void matrices_step_as_the_law_does(void**) {
 }
 
 /// Oil that is assumed too stiff, and a gain that is too large, are told.
-void what_is_wrong_is_told(void**) {
+TEST(what_is_wrong_is_told) {
   const OilGains gains{OilDesign{}};
   const Discrete soft = linkage_on_oil(machine().plant, middle_m(), truth_of(0.6, 0.02, 0));
   const auto alpha = [&](double assumed_gpa, double gain) {
@@ -201,15 +201,4 @@ void what_is_wrong_is_told(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_sum_has_the_margins_that_a_hand_finds),
-      cmocka_unit_test(a_late_sum_too),
-      cmocka_unit_test(modes_are_those_of_the_plant),
-      cmocka_unit_test(a_duty_becomes_flow),
-      cmocka_unit_test(runs_in_time_go_as_the_eigenvalues_say),
-      cmocka_unit_test(matrices_step_as_the_law_does),
-      cmocka_unit_test(what_is_wrong_is_told),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

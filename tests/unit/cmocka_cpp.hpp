@@ -7,8 +7,10 @@
 #include <cstdarg>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 extern "C" {
 #include <cmocka.h>
@@ -29,7 +31,59 @@ inline void check_near(double actual, double expected, double tolerance, const c
   }
 }
 
+/// A test that has told of itself; all of a program are one list. A header's tests would be the
+/// header's: what several sources share are functions that their tests call.
+struct Registered {
+  Registered(const char* name, const char* source, CMUnitTestFunction function) noexcept
+      : test{name, function, nullptr, nullptr, nullptr}, file(source) {
+    *end() = this;
+    end() = &next;
+  }
+  Registered(const Registered&) = delete;
+  Registered& operator=(const Registered&) = delete;
+
+  static Registered*& first() noexcept {
+    static Registered* head = nullptr;
+    return head;
+  }
+  static Registered**& end() noexcept {
+    static Registered** tail = &first();
+    return tail;
+  }
+
+  CMUnitTest test;
+  const char* file;
+  Registered* next = nullptr;
+};
+
+/// Runs the tests of one source, in their order there. A source without any fails.
+inline int run_source(const char* file, CMFixtureFunction setup, CMFixtureFunction teardown) {
+  std::vector<CMUnitTest> tests;
+  for (const Registered* one = Registered::first(); one != nullptr; one = one->next) {
+    if (std::strcmp(one->file, file) == 0) {
+      tests.push_back(one->test);
+    }
+  }
+  if (tests.empty()) {
+    print_error("%s has no tests\n", file);
+    return 1;
+  }
+  return _cmocka_run_group_tests(file, tests.data(), tests.size(), setup, teardown);
+}
+
 }  // namespace graben::test
+
+/// TEST(name) { ... }: a test, which is run by being there.
+#define TEST(name)                                                               \
+  static void name(void**);                                                      \
+  static const graben::test::Registered name##_is_a_test(#name, __FILE__, name); \
+  static void name(void**)
+
+/// The end of a source with tests. WITHIN: between a function before the first and one after the
+/// last.
+#define RUN_TESTS() RUN_TESTS_WITHIN(nullptr, nullptr)
+#define RUN_TESTS_WITHIN(before, after) \
+  int main() { return graben::test::run_source(__FILE__, before, after); }
 
 /// Fails, and prints the values, unless |a - b| <= tol.
 #define assert_near(a, b, tol) graben::test::check_near((a), (b), (tol), #a, __FILE__, __LINE__)

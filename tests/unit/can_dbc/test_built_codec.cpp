@@ -17,7 +17,7 @@ static_assert(std::is_same_v<bus::EcuStatus, graben::dbc::excavator::EcuStatus>)
 static_assert(std::is_same_v<bus::OperatorCommand, graben::dbc::excavator::OperatorCommand>);
 static_assert(!std::is_same_v<bus::LiftCommand, graben::dbc::excavator::SpoolCommand>);
 
-void own_messages_have_what_follows_from_their_lines(void**) {
+TEST(own_messages_have_what_follows_from_their_lines) {
   assert_int_equal(bus::kDbcVersion, 1);
   assert_int_equal(bus::kMessages.size(), 2 + 7);
   assert_int_equal(bus::LiftState::kId, 0x0CFF5080);
@@ -32,7 +32,7 @@ void own_messages_have_what_follows_from_their_lines(void**) {
   assert_int_equal(command.lift_duty_ratio.state, RawState::kValid);
 }
 
-void what_is_sent_is_received(void**) {
+TEST(what_is_sent_is_received) {
   bus::LiftState sent;
   sent.lift_stroke_m = {0.75, RawState::kValid};
   sent.lift_spool_ratio = {-0.5, RawState::kValid};
@@ -43,10 +43,4 @@ void what_is_sent_is_received(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(own_messages_have_what_follows_from_their_lines),
-      cmocka_unit_test(what_is_sent_is_received),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -63,11 +63,11 @@ constexpr Scale kScales[] = {
     {"PayloadDeviation", 1.0, 0.0, 0.0, 250.0},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 98); }
+TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 98); }
 
-void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
+TEST(saturates_and_refuses) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 
-void plain_numbers(void**) {
+TEST(plain_numbers) {
   bus::EcuStatus status;
   status.rejected_frames.value = 100000;
   assert_int_equal(sent(status, bus::EcuStatus::kRejectedFrames), 250);
@@ -83,7 +83,7 @@ void plain_numbers(void**) {
 }
 
 // Positions, byte for byte, as the DBC gives them.
-void known_payloads(void**) {
+TEST(known_payloads) {
   const Payload neutral{0xFF, 0x0F, 0x00, 0x7D, 0x00, 0x7D, 0x00, 0x7D};
   assert_memory_equal(bus::SpoolCommand{}.encode().data(), neutral.data(), neutral.size());
 
@@ -138,7 +138,7 @@ void known_payloads(void**) {
   assert_true(bus::SpoolCommand::decode(neutral).boom_duty_ratio.value == 0.0);
 }
 
-void start_values(void**) {
+TEST(start_values) {
   assert_int_equal(bus::BoomStroke{}.boom_stroke_m.state, RawState::kNotAvailable);
   assert_int_equal(bus::SpoolCommand{}.enable.value, bus::SpoolCommand::Enable::kOff);
   assert_int_equal(bus::SpoolCommand{}.pilot_cut.value, bus::SpoolCommand::PilotCut::kOff);
@@ -154,11 +154,4 @@ void start_values(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(every_raw_value), cmocka_unit_test(saturates_and_refuses),
-      cmocka_unit_test(plain_numbers),   cmocka_unit_test(known_payloads),
-      cmocka_unit_test(start_values),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -50,12 +50,12 @@ constexpr Scale kScales[] = {
     {"YawRate", 1e-4, -3.2, -3.2, 3.2},
 };
 
-void every_raw_value(void**) { check_every_raw_value<bus::AllMessages>(kScales, 77); }
+TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 77); }
 
-void saturates_and_refuses(void**) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
+TEST(saturates_and_refuses) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 
 // Positions, byte for byte, as the DBC gives them.
-void known_payloads(void**) {
+TEST(known_payloads) {
   const Payload neutral{0xFF, 0x0F, 0x00, 0x7D, 0xFF, 0xFF, 0xFF, 0xFF};
   assert_memory_equal(bus::SpoolCommand{}.encode().data(), neutral.data(), neutral.size());
   const Payload held{0xFF, 0xDF, 0x00, 0x7D, 0x00, 0x7D, 0xFF, 0xFF};
@@ -95,7 +95,7 @@ void known_payloads(void**) {
 }
 
 // A command that nobody has filled in moves nothing; a measurement says that there is none.
-void start_values(void**) {
+TEST(start_values) {
   assert_int_equal(bus::BodyPosition{}.position_m.state, RawState::kNotAvailable);
   assert_int_equal(bus::BodyPitch{}.pitch_rate_radps.state, RawState::kNotAvailable);
   assert_int_equal(bus::LeftTransmission{}.motor_ratio.state, RawState::kNotAvailable);
@@ -107,12 +107,4 @@ void start_values(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(every_raw_value),
-      cmocka_unit_test(saturates_and_refuses),
-      cmocka_unit_test(known_payloads),
-      cmocka_unit_test(start_values),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -51,7 +51,7 @@ void check_load(const char* machine, const Messages& messages, const Plan& plan,
   assert_true(load > plan.least_load);
 }
 
-void bus_load_is_planned(void**) {
+TEST(bus_load_is_planned) {
   const auto all = [](const MessageInfo&) { return true; };
   check_load("an excavator with a swing drive", excavator::kMessages, kExcavator, all);
   check_load("one without", excavator::kMessages, kWithoutSwing, is_of_every_machine);
@@ -77,7 +77,7 @@ void check_ids(const Messages& messages) {
   }
 }
 
-void ids_are_j1939_addressed_and_distinct(void**) {
+TEST(ids_are_j1939_addressed_and_distinct) {
   check_ids(excavator::kMessages);
   check_ids(dozer::kMessages);
 }
@@ -99,7 +99,7 @@ void check_protection(const Messages& messages, const Plan& plan) {
   assert_int_equal(protected_count, plan.protected_count);
 }
 
-void what_moves_metal_is_protected(void**) {
+TEST(what_moves_metal_is_protected) {
   check_protection(excavator::kMessages, kExcavator);
   check_protection(dozer::kMessages, kDozer);
 }
@@ -115,7 +115,7 @@ const MessageInfo* dozer_message(const char* name) {
 
 // Both kinds on one bus, or a tool with the wrong DBC: one name or PGN never means two messages.
 // EcuMotion alone says other things of each kind, under another PGN.
-void kinds_share_what_they_name_alike(void**) {
+TEST(kinds_share_what_they_name_alike) {
   int shared = 0;
   for (const MessageInfo& of_excavator : excavator::kMessages) {
     const MessageInfo* same_name = dozer_message(of_excavator.name);
@@ -138,12 +138,4 @@ void kinds_share_what_they_name_alike(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(bus_load_is_planned),
-      cmocka_unit_test(ids_are_j1939_addressed_and_distinct),
-      cmocka_unit_test(what_moves_metal_is_protected),
-      cmocka_unit_test(kinds_share_what_they_name_alike),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -21,7 +21,7 @@ std::vector<GradePoint> shipped() {
 }
 
 /// The same corners, as points with rounding and as heights on a grid, are the same design.
-void heights_are_the_points_with_their_rounding(void**) {
+TEST(heights_are_the_points_with_their_rounding) {
   const machines::DesignHeights heights = machines::heights_of(shipped(), 0.3);
   GradeDesign on_grid = test::dozer().profile.grade;
   on_grid.count = 0;
@@ -41,7 +41,7 @@ void read(const std::string& text) {
   static_cast<void>(machines::read_design(file.path()));
 }
 
-void what_is_malformed_is_refused_with_its_line(void**) {
+TEST(what_is_malformed_is_refused_with_its_line) {
   const auto refusal = [](const std::string& text) {
     return test::refusal_of([&] { read(text); });
   };
@@ -61,7 +61,7 @@ void what_is_malformed_is_refused_with_its_line(void**) {
   assert_true(has(refusal("-1000 0\n1000 0\n"), "over 2000 m; allowed"));
 }
 
-void what_is_written_is_read_again(void**) {
+TEST(what_is_written_is_read_again) {
   const test::WrittenFile file("out.txt", "");
   for (const double slope : {0.0, 0.04}) {
     machines::DesignLine line = shipped();
@@ -83,7 +83,7 @@ machines::DesignLine across(const std::vector<double>& slopes) {
 }
 
 /// With the same rounding as heights; part of the hash; and only of a machine whose blade tilts.
-void a_slope_across_is_part_of_the_design(void**) {
+TEST(a_slope_across_is_part_of_the_design) {
   const auto machine =
       machines::with_design(test::tilting_dozer(), across({0.0, 0.0, 0.03, 0.03}), 0.3, "x");
   const GradeProfile design(machine.profile.grade);
@@ -97,7 +97,7 @@ void a_slope_across_is_part_of_the_design(void**) {
   assert_true(machine.hash != other.hash && machine.hash != level.hash);
 }
 
-void a_slope_across_that_it_cannot_make_is_refused(void**) {
+TEST(a_slope_across_that_it_cannot_make_is_refused) {
   const auto refusal = [](const machines::SimulatedDozer& machine,
                           const std::vector<double>& slopes) {
     return test::refusal_of(
@@ -112,7 +112,7 @@ void a_slope_across_that_it_cannot_make_is_refused(void**) {
   assert_true(has(refusal(narrow, {0.0, 0.0, 0.03, 0.03}), "-0.01 .. 0.01 rad"));
 }
 
-void a_curvature_is_part_of_the_design(void**) {
+TEST(a_curvature_is_part_of_the_design) {
   machines::DesignLine line = across({0.0, 0.0, 0.0, 0.0});
   line.curvature = {0.0, 0.0, 0.05, 0.05};
   const test::WrittenFile file("curve.txt", "");
@@ -142,7 +142,7 @@ std::vector<GradePoint> corners(double last_m) {
 }
 
 /// The machine with it: in both ends, in the hash, as long as it is.
-void a_machine_takes_a_design(void**) {
+TEST(a_machine_takes_a_design) {
   const machines::SimulatedDozer machine =
       machines::with_design(test::dozer(), corners(-0.2), 0.3, "x");
   assert_near(machine.experiment.length_m, 20.0, 1e-9);
@@ -153,7 +153,7 @@ void a_machine_takes_a_design(void**) {
   assert_true(machine.hash != test::dozer().hash && machine.hash != other.hash);
 }
 
-void what_the_machine_cannot_make_is_refused_with_the_place(void**) {
+TEST(what_the_machine_cannot_make_is_refused_with_the_place) {
   const auto refusal = [](const std::vector<GradePoint>& corners) {
     return test::refusal_of(
         [&] { static_cast<void>(machines::with_design(test::dozer(), corners, 0.3, "wall.xml")); });
@@ -168,16 +168,4 @@ void what_the_machine_cannot_make_is_refused_with_the_place(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(heights_are_the_points_with_their_rounding),
-      cmocka_unit_test(what_is_malformed_is_refused_with_its_line),
-      cmocka_unit_test(what_is_written_is_read_again),
-      cmocka_unit_test(a_machine_takes_a_design),
-      cmocka_unit_test(a_slope_across_is_part_of_the_design),
-      cmocka_unit_test(a_curvature_is_part_of_the_design),
-      cmocka_unit_test(a_slope_across_that_it_cannot_make_is_refused),
-      cmocka_unit_test(what_the_machine_cannot_make_is_refused_with_the_place),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

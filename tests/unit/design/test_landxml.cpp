@@ -35,7 +35,7 @@ std::string refusal(const std::string& text, const std::string& name = "") {
 }
 
 /// LandXML's order is north, east, height; ids are any numbers; an invisible face is none.
-void points_and_faces_arrive(void**) {
+TEST(points_and_faces_arrive) {
   const design::Surface got = read(file_of(kMetres, surface("a", kPoints, kFaces)));
   assert_int_equal(got.point_m.size(), 4);
   assert_int_equal(got.face.size(), 2);
@@ -46,7 +46,7 @@ void points_and_faces_arrive(void**) {
   assert_near(got.point_m[got.face[1][1]].z(), 4.0, 0.0);
 }
 
-void units_are_turned_to_metres(void**) {
+TEST(units_are_turned_to_metres) {
   const auto east_m = [](const char* units) {
     return read(file_of(units, surface("a", kPoints, kFaces))).point_m[0].x();
   };
@@ -60,7 +60,7 @@ void units_are_turned_to_metres(void**) {
   assert_true(has(refusal(file_of("", surface("a", kPoints, kFaces))), "says no unit of length"));
 }
 
-void one_surface_of_several_is_chosen_by_its_name(void**) {
+TEST(one_surface_of_several_is_chosen_by_its_name) {
   const std::string two = file_of(
       kMetres, surface("ground", kPoints, "<F>1 2 7</F>\n") + surface("design", kPoints, kFaces));
   assert_int_equal(read(two, "design").face.size(), 2);
@@ -69,7 +69,7 @@ void one_surface_of_several_is_chosen_by_its_name(void**) {
   assert_true(has(refusal(two, "other"), "surface 'other' is there 0 times"));
 }
 
-void what_is_malformed_is_refused_with_its_element(void**) {
+TEST(what_is_malformed_is_refused_with_its_element) {
   const auto points = [](const std::string& more) {
     return refusal(file_of(kMetres, surface("a", kPoints + more, kFaces)));
   };
@@ -96,12 +96,4 @@ void what_is_malformed_is_refused_with_its_element(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(points_and_faces_arrive),
-      cmocka_unit_test(units_are_turned_to_metres),
-      cmocka_unit_test(one_surface_of_several_is_chosen_by_its_name),
-      cmocka_unit_test(what_is_malformed_is_refused_with_its_element),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

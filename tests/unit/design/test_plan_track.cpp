@@ -43,7 +43,7 @@ void assert_at(const design::PlanTrack& track, double station_m, double x_m, dou
   assert_near(at.piece->direction_at_rad(at.along_m), direction_rad, 1e-9);
 }
 
-void an_alignment_is_lines_and_arcs(void**) {
+TEST(an_alignment_is_lines_and_arcs) {
   const design::PlanTrack track = read(file_of(kLine + kCurve + kNorth));
   assert_int_equal(track.piece.size(), 3);
   assert_near(track.length_m(), 20.0 + 20.0 * kHalfPi, 1e-9);
@@ -60,7 +60,7 @@ void an_alignment_is_lines_and_arcs(void**) {
   assert_near(right.length_m(), 0.2 * kHalfPi, 1e-9);
 }
 
-void a_part_of_it_is_taken_by_its_stations(void**) {
+TEST(a_part_of_it_is_taken_by_its_stations) {
   const design::PlanTrack part = read(file_of(kLine + kCurve + kNorth), {"way", {105.0, 112.0}});
   assert_int_equal(part.piece.size(), 2);
   assert_near(part.length_m(), 7.0, 1e-9);
@@ -70,7 +70,7 @@ void a_part_of_it_is_taken_by_its_stations(void**) {
   assert_true(has(refusal(file_of(kLine), {"away", {}}), "alignment 'away' is there 0 times"));
 }
 
-void what_it_cant_be_is_refused_with_its_element(void**) {
+TEST(what_it_cant_be_is_refused_with_its_element) {
   assert_true(has(refusal(file_of(kLine + "<Spiral length=\"5\"/>\n")),
                   "line 7, <Spiral>: allowed in an alignment: <Line>, <Curve>"));
   const std::string apart = "<Line><Start>0 11</Start><End>0 20</End></Line>\n";
@@ -90,7 +90,7 @@ void what_it_cant_be_is_refused_with_its_element(void**) {
   assert_true(has(refusal(file_of("")), "has no element"));
 }
 
-void corners_are_rounded_by_arcs(void**) {
+TEST(corners_are_rounded_by_arcs) {
   const std::vector<double> corner = {0.0, 0.0, 30.0, 0.0, 30.0, 30.0};
   const design::PlanTrack track = design::rounded_track(corner, 20.0);
   assert_int_equal(track.piece.size(), 3);
@@ -118,7 +118,7 @@ design::Surface plane(double most_m) {
 }
 
 /// Height under the track, slope at right angles to it: of a plane, by its gradient.
-void the_section_follows_the_curve(void**) {
+TEST(the_section_follows_the_curve) {
   const design::PlanTrack track = design::rounded_track({0.0, 0.0, 30.0, 0.0, 30.0, 30.0}, 20.0);
   const machines::DesignLine line = design::along_curved_track(plane(60.0), track, 7.0, kTilts);
   assert_int_equal(line.corners.size(), line.cross.size());
@@ -134,7 +134,7 @@ void the_section_follows_the_curve(void**) {
   }
 }
 
-void what_cant_be_made_is_refused_with_the_station(void**) {
+TEST(what_cant_be_made_is_refused_with_the_station) {
   const design::PlanTrack track = design::rounded_track({0.0, 0.0, 30.0, 0.0, 30.0, 30.0}, 20.0);
   const auto refused = [&](const design::Surface& surface, const design::BladeAcross& blade) {
     return test::refusal_of(
@@ -158,14 +158,4 @@ void what_cant_be_made_is_refused_with_the_station(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(an_alignment_is_lines_and_arcs),
-      cmocka_unit_test(a_part_of_it_is_taken_by_its_stations),
-      cmocka_unit_test(what_it_cant_be_is_refused_with_its_element),
-      cmocka_unit_test(corners_are_rounded_by_arcs),
-      cmocka_unit_test(the_section_follows_the_curve),
-      cmocka_unit_test(what_cant_be_made_is_refused_with_the_station),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -32,7 +32,7 @@ double area_m2(const design::Surface& surface) {
 }
 
 /// An even grid is the worst of all: every four points lie on a circle.
-void a_grid_is_covered_once(void**) {
+TEST(a_grid_is_covered_once) {
   std::ostringstream text;
   text.precision(12);
   text << "# a ramp\n";
@@ -51,7 +51,7 @@ void a_grid_is_covered_once(void**) {
 }
 
 /// Delaunay's: of a flat rhombus the short diagonal.
-void triangles_are_delaunays(void**) {
+TEST(triangles_are_delaunays) {
   const design::Surface surface = read("0 0 0\n5 1 0\n10 0 0\n5 -1 0\n5 1 0\n");
   assert_int_equal(surface.point_m.size(), 4);
   assert_int_equal(surface.face.size(), 2);
@@ -64,7 +64,7 @@ void triangles_are_delaunays(void**) {
   }
 }
 
-void what_is_malformed_is_refused_with_its_line(void**) {
+TEST(what_is_malformed_is_refused_with_its_line) {
   assert_true(has(refusal("1 2 3\n1 2\n"), "line 2: 2 numbers; allowed: 3, x, y and z, m"));
   assert_true(has(refusal("1 2 3\n\n1 2 x\n"), "line 3: 'x' is no finite number"));
   assert_true(has(refusal("1 2 inf\n"), "line 1: 'inf' is no finite number"));
@@ -77,11 +77,4 @@ void what_is_malformed_is_refused_with_its_line(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_grid_is_covered_once),
-      cmocka_unit_test(triangles_are_delaunays),
-      cmocka_unit_test(what_is_malformed_is_refused_with_its_line),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

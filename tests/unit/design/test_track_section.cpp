@@ -54,7 +54,7 @@ double height_m(const std::vector<GradePoint>& corners, double x_m) {
 }
 
 /// Wherever it lies on the earth and whichever way it goes, the section is that of the strip.
-void the_section_is_the_surface_along_the_track(void**) {
+TEST(the_section_is_the_surface_along_the_track) {
   for (const double heading_rad : {0.0, 0.3, 1.5707963, -2.5}) {
     const Eigen::Vector2d from_m(400123.25, 5600456.5);
     const design::Surface surface = strip(kStations, from_m, heading_rad, trench_m);
@@ -69,7 +69,7 @@ void the_section_is_the_surface_along_the_track(void**) {
   }
 }
 
-void a_track_may_begin_and_end_inside_and_count_from_a_datum(void**) {
+TEST(a_track_may_begin_and_end_inside_and_count_from_a_datum) {
   const design::Surface surface = strip(kStations, {0.0, 0.0}, 0.0, [](double x_m, double y_m) {
     return 412.0 + trench_m(x_m, y_m);
   });
@@ -86,7 +86,7 @@ std::string refusal(const design::Surface& surface, const design::Track& track,
       [&] { static_cast<void>(design::along_track(surface, track, 0.0, blade)); });
 }
 
-void holes_and_overhangs_are_refused_with_the_place(void**) {
+TEST(holes_and_overhangs_are_refused_with_the_place) {
   const design::Surface whole = strip(kStations, {0.0, 0.0}, 0.0, trench_m);
   const design::Track track{{0.0, 0.0}, {20.0, 0.0}};
   assert_true(refusal(whole, track).empty());
@@ -108,7 +108,7 @@ void holes_and_overhangs_are_refused_with_the_place(void**) {
 }
 
 /// 2 % over the half of 2.5 m are 25 mm.
-void a_slope_across_is_refused_beyond_the_tolerance(void**) {
+TEST(a_slope_across_is_refused_beyond_the_tolerance) {
   const auto across = [](double slope) {
     return strip(kStations, {0.0, 0.0}, 0.0,
                  [slope](double x_m, double y_m) { return trench_m(x_m, 0.0) + slope * y_m; });
@@ -121,7 +121,7 @@ void a_slope_across_is_refused_beyond_the_tolerance(void**) {
 }
 
 /// The slope between the ends, positive where the left one is higher; whichever way the track goes.
-void a_blade_that_tilts_takes_the_slope_across(void**) {
+TEST(a_blade_that_tilts_takes_the_slope_across) {
   const design::BladeAcross tilts{2.5, 0.02, true};
   const design::Surface surface = strip(kStations, {3.0, 4.0}, 0.3, [](double x_m, double y_m) {
     return 412.0 + trench_m(x_m, 0.0) + 0.08 * y_m;
@@ -140,7 +140,7 @@ void a_blade_that_tilts_takes_the_slope_across(void**) {
 }
 
 /// A straight edge makes no crown, and no blade tilts so far.
-void a_crown_and_a_steep_slope_across_are_refused(void**) {
+TEST(a_crown_and_a_steep_slope_across_are_refused) {
   const design::BladeAcross tilts{2.5, 0.02, true};
   design::Surface crown;
   for (const double x_m : {0.0, 20.0}) {
@@ -159,7 +159,7 @@ void a_crown_and_a_steep_slope_across_are_refused(void**) {
   assert_true(has(refusal(steep, track, tilts), "a slope of -0.350 across the track at x = 0.00"));
 }
 
-void a_track_is_straight_and_of_a_length(void**) {
+TEST(a_track_is_straight_and_of_a_length) {
   const auto refused = [](const std::vector<double>& corners_m) {
     return test::refusal_of([&] { static_cast<void>(design::straight_track(corners_m)); });
   };
@@ -171,7 +171,7 @@ void a_track_is_straight_and_of_a_length(void**) {
   assert_true(has(refused({0.0, 0.0, 1001.0, 0.0}), "allowed: 1 .. 1000 m"));
 }
 
-void unless_told_it_goes_along_x_through_the_middle(void**) {
+TEST(unless_told_it_goes_along_x_through_the_middle) {
   const design::Track track = design::middle_track(strip(kStations, {10.0, 7.0}, 0.0, trench_m));
   assert_near(track.from_m.x(), 10.0, 1e-12);
   assert_near(track.from_m.y(), 7.0, 1e-12);
@@ -180,16 +180,4 @@ void unless_told_it_goes_along_x_through_the_middle(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_section_is_the_surface_along_the_track),
-      cmocka_unit_test(a_track_may_begin_and_end_inside_and_count_from_a_datum),
-      cmocka_unit_test(holes_and_overhangs_are_refused_with_the_place),
-      cmocka_unit_test(a_slope_across_is_refused_beyond_the_tolerance),
-      cmocka_unit_test(a_blade_that_tilts_takes_the_slope_across),
-      cmocka_unit_test(a_crown_and_a_steep_slope_across_are_refused),
-      cmocka_unit_test(a_track_is_straight_and_of_a_length),
-      cmocka_unit_test(unless_told_it_goes_along_x_through_the_middle),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

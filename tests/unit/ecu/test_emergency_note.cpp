@@ -46,7 +46,7 @@ class Manager {
   int socket_ = -1;
 };
 
-void an_emergency_is_told_as_it_comes_changes_and_goes(void**) {
+TEST(an_emergency_is_told_as_it_comes_changes_and_goes) {
   const Manager manager;
   ServiceNotify notify(manager.name());
   ecu::EmergencyNote note(notify, "cycling");
@@ -65,7 +65,7 @@ void an_emergency_is_told_as_it_comes_changes_and_goes(void**) {
   assert_int_equal(note.last().id, 17);
 }
 
-void without_a_manager_it_is_kept_for_the_end(void**) {
+TEST(without_a_manager_it_is_kept_for_the_end) {
   ServiceNotify nobody(nullptr);
   ecu::EmergencyNote note(nobody, "cycling");
   note.look({2, 0xFF01});
@@ -75,10 +75,4 @@ void without_a_manager_it_is_kept_for_the_end(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(an_emergency_is_told_as_it_comes_changes_and_goes),
-      cmocka_unit_test(without_a_manager_it_is_kept_for_the_end),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

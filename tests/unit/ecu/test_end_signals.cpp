@@ -80,7 +80,7 @@ Ended end_of(const Body& body) {
   return ended;
 }
 
-void a_request_is_left_to_the_cycle(void**) {
+TEST(a_request_is_left_to_the_cycle) {
   for (const int signal :
        {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGPIPE, SIGALRM, SIGVTALRM, SIGPROF,
         SIGIO, SIGPWR, SIGSTKFLT, SIGXFSZ, SIGRTMIN, SIGRTMAX}) {
@@ -91,7 +91,7 @@ void a_request_is_left_to_the_cycle(void**) {
   }
 }
 
-void the_second_request_ends_it_neutral(void**) {
+TEST(the_second_request_ends_it_neutral) {
   const Ended ended = end_of([] {
     raise(SIGTERM);
     raise(SIGHUP);
@@ -102,7 +102,7 @@ void the_second_request_ends_it_neutral(void**) {
 }
 
 /// The newest frames, each once, in their order; then what the signal does anyway.
-void a_failure_ends_it_neutral(void**) {
+TEST(a_failure_ends_it_neutral) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP, SIGXCPU}) {
     const Ended ended = end_of([signal] { raise(signal); });
     assert_int_equal(ended.signal, signal);
@@ -112,13 +112,13 @@ void a_failure_ends_it_neutral(void**) {
   }
 }
 
-void abort_ends_it_neutral(void**) {
+TEST(abort_ends_it_neutral) {
   const Ended ended = end_of([] { std::abort(); });
   assert_int_equal(ended.signal, SIGABRT);
   assert_int_equal(ended.frames, 2);
 }
 
-void more_frames_than_fit_are_left_out(void**) {
+TEST(more_frames_than_fit_are_left_out) {
   LastFrames last;
   std::array<CanFrame, LastFrames::kMost + 1> many;
   last.put(many.data(), many.size());
@@ -127,11 +127,4 @@ void more_frames_than_fit_are_left_out(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(a_request_is_left_to_the_cycle),
-                              cmocka_unit_test(the_second_request_ends_it_neutral),
-                              cmocka_unit_test(a_failure_ends_it_neutral),
-                              cmocka_unit_test(abort_ends_it_neutral),
-                              cmocka_unit_test(more_frames_than_fit_are_left_out)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -84,7 +84,7 @@ DriveVector beside(const TaskProgram& task) {
   return from;
 }
 
-void without_fences_the_way_is_direct_at_once(void**) {
+TEST(without_fences_the_way_is_direct_at_once) {
   const TaskProgram task = program({});
   const Found found = search(task, beside(task));
   assert_true(found.search.found);
@@ -92,7 +92,7 @@ void without_fences_the_way_is_direct_at_once(void**) {
   assert_int_equal(found.cycles, 1);
 }
 
-void what_is_far_away_changes_nothing(void**) {
+TEST(what_is_far_away_changes_nothing) {
   const TaskProgram task = program({box({-8.0, 0.0, 0.0}, {1.0, 1.0, 1.0})});
   const Found found = search(task, beside(task));
   assert_true(found.search.found);
@@ -104,7 +104,7 @@ void what_is_far_away_changes_nothing(void**) {
 
 /// Between the machine and its task: lower than the raised bucket, or near enough to be passed with
 /// the bucket drawn in.
-void it_goes_over_or_round_what_is_between(void**) {
+TEST(it_goes_over_or_round_what_is_between) {
   const Fence low = box({4.6, 4.6, 0.0}, {0.8, 0.8, 2.0});
   const Fence high = box({5.5, 5.5, 3.0}, {0.8, 0.8, 6.0});
   for (const Fence& fence : {low, high}) {
@@ -121,7 +121,7 @@ void it_goes_over_or_round_what_is_between(void**) {
   }
 }
 
-void where_nothing_leads_there_none_is_found(void**) {
+TEST(where_nothing_leads_there_none_is_found) {
   // From near the axis to beyond all reach, across the way.
   Fence wall = box({4.0, 4.0, 4.0}, {4.0, 0.2, 8.0});
   wall.normal = {std::cos(0.8), std::sin(0.8), 0.0};
@@ -132,7 +132,7 @@ void where_nothing_leads_there_none_is_found(void**) {
 }
 
 /// A machine that stands beyond a wall beside it may swing back, and nothing else.
-void from_beyond_a_fence_it_only_leads_away(void**) {
+TEST(from_beyond_a_fence_it_only_leads_away) {
   Fence wall;
   wall.normal = Eigen::Vector3d::UnitY();
   wall.offset_m = 3.0;
@@ -148,13 +148,4 @@ void from_beyond_a_fence_it_only_leads_away(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(without_fences_the_way_is_direct_at_once),
-      cmocka_unit_test(what_is_far_away_changes_nothing),
-      cmocka_unit_test(it_goes_over_or_round_what_is_between),
-      cmocka_unit_test(where_nothing_leads_there_none_is_found),
-      cmocka_unit_test(from_beyond_a_fence_it_only_leads_away),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -25,7 +25,7 @@ KinematicState half_out() {
   return ExcavatorKinematics(profile().geometry).state(strokes_m);
 }
 
-void the_boom_holds_all_links_up(void**) {
+TEST(the_boom_holds_all_links_up) {
   const auto load = links_alone(profile(), half_out());
   // Some 4 t at 3 m on two cylinders of 0.4 m lever.
   assert_true(load[kBoom].cap_pa > 3e6);
@@ -42,13 +42,13 @@ void the_boom_holds_all_links_up(void**) {
   assert_near(links_alone(lighter, half_out())[kBoom].cap_pa, 0.5 * load[kBoom].cap_pa, 1.0);
 }
 
-void without_a_pose_nothing_is_known(void**) {
+TEST(without_a_pose_nothing_is_known) {
   KinematicState nowhere = half_out();
   nowhere.status = ReachStatus::kNotFinite;
   assert_near(links_alone(profile(), nowhere)[kBoom].cap_pa, 0.0, 0.0);
 }
 
-void the_worst_pushes_against_what_is_wanted(void**) {
+TEST(the_worst_pushes_against_what_is_wanted) {
   const DriveBank bank = excavator_bank(profile());
   const auto likely = links_alone(profile(), half_out());
   DriveVector wanted_mps = DriveVector::Zero();
@@ -65,11 +65,4 @@ void the_worst_pushes_against_what_is_wanted(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_boom_holds_all_links_up),
-      cmocka_unit_test(without_a_pose_nothing_is_known),
-      cmocka_unit_test(the_worst_pushes_against_what_is_wanted),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

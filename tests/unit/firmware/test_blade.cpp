@@ -11,7 +11,7 @@ const BladeGeometry& geometry() { return test::dozer().profile.blade; }
 
 /// Home as machines/dozer_9t.toml has it: edge at the ground line, cylinder at its home length, so
 /// that L12 closes the triangle.
-void home_is_where_the_file_says(void**) {
+TEST(home_is_where_the_file_says) {
   const BladeKinematics blade(geometry());
   assert_near(blade.edge_m(0.0).y(), 0.0, 1e-12);
   assert_near(blade.edge_m(0.0).x(), 0.6718 + std::sqrt(1.6 * 1.6 - 0.386 * 0.386), 1e-12);
@@ -21,7 +21,7 @@ void home_is_where_the_file_says(void**) {
   assert_near(blade.eye_radius_m(), 0.7079, 1e-4);
 }
 
-void its_reach_is_that_of_the_file(void**) {
+TEST(its_reach_is_that_of_the_file) {
   const BladeKinematics blade(geometry());
   assert_near(blade.edge_m(blade.angle_min_rad()).y(), -0.38, 1e-12);
   assert_near(blade.edge_m(blade.angle_max_rad()).y(), 0.80, 1e-12);
@@ -32,7 +32,7 @@ void its_reach_is_that_of_the_file(void**) {
               BladeKinematics(profile.blade).stroke_max_m(), 0.0);
 }
 
-void stroke_and_angle_are_each_others_inverse(void**) {
+TEST(stroke_and_angle_are_each_others_inverse) {
   const BladeKinematics blade(geometry());
   for (int i = 0; i <= 20; ++i) {
     const double stroke_m = blade.stroke_max_m() * i / 20.0;
@@ -42,7 +42,7 @@ void stroke_and_angle_are_each_others_inverse(void**) {
   assert_true(blade.angle_rad(0.1) > blade.angle_rad(0.2));
 }
 
-void rates_are_the_derivatives(void**) {
+TEST(rates_are_the_derivatives) {
   const BladeKinematics blade(geometry());
   constexpr double kStep_rad = 1e-6;
   for (double angle_rad = -0.2; angle_rad < 0.45; angle_rad += 0.05) {
@@ -58,7 +58,7 @@ void rates_are_the_derivatives(void**) {
   }
 }
 
-void beyond_its_reach_it_stays_at_the_end(void**) {
+TEST(beyond_its_reach_it_stays_at_the_end) {
   const BladeKinematics blade(geometry());
   assert_near(blade.angle_rad(-1.0), blade.angle_max_rad(), 1e-12);
   assert_near(blade.angle_rad(9.0), blade.angle_min_rad(), 1e-12);
@@ -68,13 +68,4 @@ void beyond_its_reach_it_stays_at_the_end(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(home_is_where_the_file_says),
-      cmocka_unit_test(its_reach_is_that_of_the_file),
-      cmocka_unit_test(stroke_and_angle_are_each_others_inverse),
-      cmocka_unit_test(rates_are_the_derivatives),
-      cmocka_unit_test(beyond_its_reach_it_stays_at_the_end),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -30,14 +30,14 @@ BladeCommand command(const GradeDesign& design, const BladeSituation& now, Blade
   return command(design, now, now, last);
 }
 
-void on_the_grade_it_rests(void**) {
+TEST(on_the_grade_it_rests) {
   const BladeCommand rest = command(test::level(0.0), driving(1.0, 0.0));
   assert_near(rest.velocity_mps, 0.0, 1e-12);
   assert_near(rest.error_m, 0.0, 1e-12);
 }
 
 /// Too high: extension, which lowers; as fast as the gain says.
-void an_error_is_taken_back(void**) {
+TEST(an_error_is_taken_back) {
   const BladeCommand high = command(test::level(-0.01), driving(1.0, 0.0));
   assert_near(high.error_m, 0.01, 1e-12);
   assert_true(high.velocity_mps > 0.0);
@@ -50,7 +50,7 @@ void an_error_is_taken_back(void**) {
 
 /// What is too high within half the tolerance goes down a tenth of its way, and is not integrated;
 /// what is too deep, or far too high, does not wait.
-void it_comes_down_over_some_way(void**) {
+TEST(it_comes_down_over_some_way) {
   const BladeKinematics blade(profile().blade);
   const double gain_ps = profile().control.blade_gain_ps;
   const double half_m = 0.5 * profile().grade.tolerance_m;
@@ -70,7 +70,7 @@ void it_comes_down_over_some_way(void**) {
 }
 
 /// Feed-forward: with it the edge keeps its height over the design whatever the body does.
-void the_bodys_motion_is_made_up_for(void**) {
+TEST(the_bodys_motion_is_made_up_for) {
   BladeSituation now = driving(0.8, 0.0);
   now.body_velocity[2] = 0.05;
   now.body_velocity[4] = -0.1;
@@ -83,7 +83,7 @@ void the_bodys_motion_is_made_up_for(void**) {
 }
 
 /// The design is read, and the body's motion taken, as they will be when the cylinders answer.
-void it_is_asked_for_what_will_be(void**) {
+TEST(it_is_asked_for_what_will_be) {
   const BladeKinematics blade(profile().blade);
   const GradeDesign bent = test::bend(-0.3, 0.1);
   BladeSituation now = driving(1.0, 0.0);
@@ -98,7 +98,7 @@ void it_is_asked_for_what_will_be(void**) {
 
 /// What is asked for already, and has only to arrive, is not asked for again; what is measured now
 /// is integrated all the same.
-void what_is_under_way_is_not_asked_for_twice(void**) {
+TEST(what_is_under_way_is_not_asked_for_twice) {
   const BladeKinematics blade(profile().blade);
   const BladeSituation now = driving(1.0, 0.0);
   BladeSituation then = now;
@@ -112,7 +112,7 @@ void what_is_under_way_is_not_asked_for_twice(void**) {
 }
 
 /// On its lift it is where it is meant to be, and goes along with it.
-void a_lift_is_followed(void**) {
+TEST(a_lift_is_followed) {
   BladeSituation lifted = driving(1.0, 0.01);
   lifted.lift = {0.01, 0.0};
   const BladeCommand there = command(test::level(0.0), lifted);
@@ -127,7 +127,7 @@ void a_lift_is_followed(void**) {
   assert_near(edge_mps, 0.05, 1e-9);
 }
 
-void what_stays_is_integrated_up_to_its_bound(void**) {
+TEST(what_stays_is_integrated_up_to_its_bound) {
   BladeState state;
   for (int n = 0; n < 50; ++n) {
     state = command(test::level(-0.005), driving(2.0, 0.0), state).state;
@@ -140,12 +140,12 @@ void what_stays_is_integrated_up_to_its_bound(void**) {
 }
 
 /// While the pump can't feed what is asked for, nothing winds up.
-void out_of_flow_the_integral_stands_still(void**) {
+TEST(out_of_flow_the_integral_stands_still) {
   const BladeState state = command(test::level(-0.3), driving(0.0, 0.0)).state;
   assert_near(state.integral_mps, 0.0, 0.0);
 }
 
-void towards_its_ends_it_slows_down(void**) {
+TEST(towards_its_ends_it_slows_down) {
   const BladeKinematics blade(profile().blade);
   BladeSituation now = driving(0.0, 0.0);
   double last_mps = 1e9;
@@ -164,18 +164,4 @@ void towards_its_ends_it_slows_down(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(on_the_grade_it_rests),
-      cmocka_unit_test(an_error_is_taken_back),
-      cmocka_unit_test(it_comes_down_over_some_way),
-      cmocka_unit_test(the_bodys_motion_is_made_up_for),
-      cmocka_unit_test(it_is_asked_for_what_will_be),
-      cmocka_unit_test(what_is_under_way_is_not_asked_for_twice),
-      cmocka_unit_test(a_lift_is_followed),
-      cmocka_unit_test(what_stays_is_integrated_up_to_its_bound),
-      cmocka_unit_test(out_of_flow_the_integral_stands_still),
-      cmocka_unit_test(towards_its_ends_it_slows_down),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

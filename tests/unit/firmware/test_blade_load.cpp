@@ -35,7 +35,7 @@ PushState after(const DozerValid& valid, double seconds, PushState state = {}) {
   return state;
 }
 
-void the_push_is_that_of_the_lines(void**) {
+TEST(the_push_is_that_of_the_lines) {
   assert_near(push_n(profile(), pushing(40e3, 0.0)), 40e3, 1e-6);
   DozerValid climbing = pushing(40e3, 0.0);
   climbing.pitch_rad = 0.1;
@@ -45,18 +45,18 @@ void the_push_is_that_of_the_lines(void**) {
   assert_near(push_n(profile(), untold), 0.0, 1e-9);
 }
 
-void slip_is_what_the_faster_track_loses(void**) {
+TEST(slip_is_what_the_faster_track_loses) {
   assert_near(slip_of(pushing(0.0, 0.3)), 0.3, 1e-12);
   DozerValid back = pushing(0.0, 0.0);
   back.track_speed_mps = {-1.0, -1.0};
   assert_near(slip_of(back), 0.0, 0.0);
 }
 
-void what_it_can_push_it_pushes(void**) {
+TEST(what_it_can_push_it_pushes) {
   assert_near(after(pushing(0.8 * profile().travel.push_max_n, 0.0), 5.0).lift_m, 0.0, 0.0);
 }
 
-void too_much_of_a_push_lifts_the_blade(void**) {
+TEST(too_much_of_a_push_lifts_the_blade) {
   const PushState little = after(pushing(1.1 * profile().travel.push_max_n, 0.0), 1.0);
   const PushState more = after(pushing(1.3 * profile().travel.push_max_n, 0.0), 1.0);
   assert_true(little.lift_m > 0.005);
@@ -66,11 +66,11 @@ void too_much_of_a_push_lifts_the_blade(void**) {
 }
 
 /// However soft the ground under the tracks.
-void tracks_that_dig_themselves_in_lift_it_too(void**) {
+TEST(tracks_that_dig_themselves_in_lift_it_too) {
   assert_true(after(pushing(0.2 * profile().travel.push_max_n, 0.4), 1.0).lift_m > 0.05);
 }
 
-void then_it_comes_down_again(void**) {
+TEST(then_it_comes_down_again) {
   const PushState high = after(pushing(1.3 * profile().travel.push_max_n, 0.0), 1.0);
   const PushState down = after(pushing(0.2 * profile().travel.push_max_n, 0.0), 5.0, high);
   assert_near(down.lift_m, 0.0, 0.0);
@@ -78,7 +78,7 @@ void then_it_comes_down_again(void**) {
 }
 
 /// A load that grows is met before it is too much.
-void a_load_that_rises_counts_as_what_it_will_be(void**) {
+TEST(a_load_that_rises_counts_as_what_it_will_be) {
   PushState state = after(pushing(0.0, 0.0), 1.0);
   double lifted_at = 0.0;
   for (int n = 0; n < 100 && lifted_at <= 0.0; ++n) {
@@ -91,7 +91,7 @@ void a_load_that_rises_counts_as_what_it_will_be(void**) {
 }
 
 /// A quarter of the planned flow is kept from twice 0.3 of what the tracks may push on.
-void a_load_keeps_a_reserve_of_flow(void**) {
+TEST(a_load_keeps_a_reserve_of_flow) {
   const TravelProfile& travel = test::dozer().profile.travel;
   const auto share_at = [&](double push) {
     PushState load;
@@ -107,16 +107,4 @@ void a_load_keeps_a_reserve_of_flow(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_push_is_that_of_the_lines),
-      cmocka_unit_test(slip_is_what_the_faster_track_loses),
-      cmocka_unit_test(what_it_can_push_it_pushes),
-      cmocka_unit_test(too_much_of_a_push_lifts_the_blade),
-      cmocka_unit_test(tracks_that_dig_themselves_in_lift_it_too),
-      cmocka_unit_test(then_it_comes_down_again),
-      cmocka_unit_test(a_load_that_rises_counts_as_what_it_will_be),
-      cmocka_unit_test(a_load_keeps_a_reserve_of_flow),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -70,7 +70,7 @@ Drive blocked_drive(double pressure_pa, double way = 1.0) {
 }
 
 /// Either way, within half a second of the pressure, and told as what holds the machine.
-void what_strains_and_stands_is_blocked(void**) {
+TEST(what_strains_and_stands_is_blocked) {
   for (const double way : {1.0, -1.0}) {
     Drive drive;
     drive.way = way;
@@ -88,7 +88,7 @@ void what_strains_and_stands_is_blocked(void**) {
 
 /// A stroke that stands at less pressure may be a stuck sensor; one that moves is not held; without
 /// pressures, a line or a way to go nothing is known.
-void what_only_stands_or_only_strains_is_not(void**) {
+TEST(what_only_stands_or_only_strains_is_not) {
   Drive weak;
   weak.push(0.76 * kLine_pa);
   assert_int_equal(weak.until(true), -1);
@@ -121,7 +121,7 @@ void what_only_stands_or_only_strains_is_not(void**) {
 }
 
 /// With lambda at 0 nothing is asked of the spools, and it is held all the same.
-void lambda_at_0_hides_nothing(void**) {
+TEST(lambda_at_0_hides_nothing) {
   Drive drive;
   drive.asked_mps = 0.0;
   drive.push(0.9 * kLine_pa);
@@ -134,7 +134,7 @@ void lambda_at_0_hides_nothing(void**) {
 }
 
 /// It gets on again: the pressure falls, it moves, or it is to go back.
-void it_ends_with_what_made_it(void**) {
+TEST(it_ends_with_what_made_it) {
   Drive eased = blocked_drive(kPush_pa);
   eased.push(0.76 * kLine_pa);
   assert_int_equal(eased.until(false, 100), -1);
@@ -150,7 +150,7 @@ void it_ends_with_what_made_it(void**) {
 
 /// What feedback adds to that side goes within 0.3 s and comes back as slowly; what it adds to the
 /// other side, and what is wanted, stay.
-void feedback_is_eased_and_comes_back(void**) {
+TEST(feedback_is_eased_and_comes_back) {
   for (const double way : {1.0, -1.0}) {
     Drive drive = blocked_drive(kPush_pa, way);
     assert_near(eased_mps(drive.state, way * kWanted_mps, way * kAsked_mps), way * kAsked_mps,
@@ -178,7 +178,7 @@ void feedback_is_eased_and_comes_back(void**) {
 
 /// A tenth of a second at the relief's pressure: it lets off, rests on what is left, and pushes
 /// again.
-void at_the_relief_it_lets_off(void**) {
+TEST(at_the_relief_it_lets_off) {
   Drive drive = blocked_drive(0.95 * kRelief_pa);
   assert_in_range(drive.until(Easing::kLetsOff), 8, 12);
   assert_true(any_eases({&drive.state, 1}));
@@ -195,7 +195,7 @@ void at_the_relief_it_lets_off(void**) {
 
 /// Once it has let off, its load may give way at any time: until it has gone 20 mm past the place,
 /// or for 6 s after it was blocked last.
-void it_stays_wary_until_it_is_past(void**) {
+TEST(it_stays_wary_until_it_is_past) {
   for (const double way : {1.0, -1.0}) {
     Drive drive = blocked_drive(0.95 * kRelief_pa, way);
     assert_false(any_wary({&drive.state, 1}));
@@ -223,7 +223,7 @@ void it_stays_wary_until_it_is_past(void**) {
 
 /// Letting off takes a second at most; a pressure below 0.85 of the relief's is kept. Where no
 /// relief is known nothing is.
-void it_lets_off_only_what_is_hard(void**) {
+TEST(it_lets_off_only_what_is_hard) {
   Drive stays = blocked_drive(0.95 * kRelief_pa);
   assert_true(stays.until(Easing::kLetsOff) > 0);
   assert_in_range(stays.until(Easing::kRests), 98, 102);
@@ -236,7 +236,7 @@ void it_lets_off_only_what_is_hard(void**) {
 }
 
 /// A load that gives way throws the drive: known in the cycle in which it has gone 5 mm.
-void giving_way_is_known_at_once(void**) {
+TEST(giving_way_is_known_at_once) {
   for (const double way : {1.0, -1.0}) {
     for (const Easing easing : {Easing::kLetsOff, Easing::kRests}) {
       Drive drive = blocked_drive(0.95 * kRelief_pa, way);
@@ -254,17 +254,4 @@ void giving_way_is_known_at_once(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_strains_and_stands_is_blocked),
-      cmocka_unit_test(what_only_stands_or_only_strains_is_not),
-      cmocka_unit_test(lambda_at_0_hides_nothing),
-      cmocka_unit_test(it_ends_with_what_made_it),
-      cmocka_unit_test(feedback_is_eased_and_comes_back),
-      cmocka_unit_test(at_the_relief_it_lets_off),
-      cmocka_unit_test(it_stays_wary_until_it_is_past),
-      cmocka_unit_test(it_lets_off_only_what_is_hard),
-      cmocka_unit_test(giving_way_is_known_at_once),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

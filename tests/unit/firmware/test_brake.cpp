@@ -23,12 +23,12 @@ bool wanted(const BrakeState& last, EcuMode mode, const DozerValid& valid) {
   return brake(last, {mode, Fault::kNone}, valid, kPeriod_s).wanted;
 }
 
-void it_is_on_from_the_start(void**) {
+TEST(it_is_on_from_the_start) {
   assert_true(BrakeState{}.wanted);
   assert_true(wanted({}, EcuMode::kSilent, tracks_at(0.0, 0.0)));
 }
 
-void motion_releases_it(void**) {
+TEST(motion_releases_it) {
   for (const EcuMode mode : {EcuMode::kArmed, EcuMode::kActive}) {
     assert_false(wanted({}, mode, tracks_at(0.0, 0.0)));
     assert_false(wanted({}, mode, tracks_at(1.0, 1.0)));
@@ -36,7 +36,7 @@ void motion_releases_it(void**) {
 }
 
 /// After motion: not before both tracks stand, to the last bit, whichever way they run.
-void it_waits_for_both_tracks(void**) {
+TEST(it_waits_for_both_tracks) {
   for (const EcuMode mode :
        {EcuMode::kSilent, EcuMode::kReady, EcuMode::kStopping, EcuMode::kFault}) {
     for (const double sign : {1.0, -1.0}) {
@@ -51,7 +51,7 @@ void it_waits_for_both_tracks(void**) {
 
 /// Dragged downhill it keeps it, but for an operator who drives by hand. One who is not heard does
 /// not.
-void it_stays_until_the_next_motion(void**) {
+TEST(it_stays_until_the_next_motion) {
   DozerValid dragged = tracks_at(0.5, 0.5);
   assert_true(wanted({true, 0.0}, EcuMode::kReady, dragged));
   dragged.automatic = false;
@@ -62,7 +62,7 @@ void it_stays_until_the_next_motion(void**) {
 }
 
 /// At once, at any speed: while it is there and while it is what stopped the machine.
-void a_runaway_is_braked_at_once(void**) {
+TEST(a_runaway_is_braked_at_once) {
   DozerValid valid = tracks_at(2.0, 2.0);
   assert_true(
       brake(kReleased, {EcuMode::kFault, Fault::kDisplacementRunaway}, valid, kPeriod_s).wanted);
@@ -77,7 +77,7 @@ void a_runaway_is_braked_at_once(void**) {
 
 /// Without the tracks' speeds it comes a second after the motion; in motion that time is not
 /// counted.
-void tracks_that_are_not_seen_come_to_rest_in_a_second(void**) {
+TEST(tracks_that_are_not_seen_come_to_rest_in_a_second) {
   DozerValid valid = tracks_at(0.0, 0.0);
   valid.faults.add(Fault::kTransmissionMissing);
   BrakeState state{false, 0.9};
@@ -95,14 +95,4 @@ void tracks_that_are_not_seen_come_to_rest_in_a_second(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_is_on_from_the_start),
-      cmocka_unit_test(motion_releases_it),
-      cmocka_unit_test(it_waits_for_both_tracks),
-      cmocka_unit_test(it_stays_until_the_next_motion),
-      cmocka_unit_test(a_runaway_is_braked_at_once),
-      cmocka_unit_test(tracks_that_are_not_seen_come_to_rest_in_a_second),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -46,7 +46,7 @@ ExcavatorProfile with_bus(ExcavatorProfile profile, bool BusCapabilities::*lacks
   return profile;
 }
 
-void our_own_bus_lacks_nothing(void**) {
+TEST(our_own_bus_lacks_nothing) {
   assert_false(BusCapabilities{}.lacks_any());
   for (const Case& row : kCases) {
     BusCapabilities bus;
@@ -73,7 +73,7 @@ bool shows_stand_in(const ExcavatorValid& valid) {
 }
 
 /// What arming and motion want of the inputs is there, and it is said that something stands in.
-void what_the_bus_lacks_is_not_asked_for(void**) {
+TEST(what_the_bus_lacks_is_not_asked_for) {
   for (const Case& row : kCases) {
     const ExcavatorValid valid = seen(with_bus(test::plain_machine(), row.lacks), row.silence);
     assert_int_equal(valid.fault, Fault::kNone);
@@ -83,7 +83,7 @@ void what_the_bus_lacks_is_not_asked_for(void**) {
   }
 }
 
-void what_the_bus_should_say_is_missed(void**) {
+TEST(what_the_bus_should_say_is_missed) {
   for (const Case& row : kCases) {
     const ExcavatorValid valid = seen(test::plain_machine(), row.silence);
     assert_int_equal(valid.fault, row.missed);
@@ -93,7 +93,7 @@ void what_the_bus_should_say_is_missed(void**) {
 }
 
 /// One lack does not excuse another.
-void each_lack_excuses_itself_alone(void**) {
+TEST(each_lack_excuses_itself_alone) {
   for (const Case& lacking : kCases) {
     for (const Case& silent : kCases) {
       const ExcavatorValid valid =
@@ -135,7 +135,7 @@ struct Unseen {
 };
 
 /// Commanded closed, a cylinder that runs off is found without its spool.
-void the_command_stands_in_for_the_spool(void**) {
+TEST(the_command_stands_in_for_the_spool) {
   Unseen machine;
   assert_int_equal(machine.run(100), Fault::kNone);
   for (int n = 0; n < 20; ++n) {
@@ -150,7 +150,7 @@ void the_command_stands_in_for_the_spool(void**) {
 }
 
 /// Commanded open it may go there, and one that does not is stuck.
-void a_commanded_cylinder_may_move_and_must(void**) {
+TEST(a_commanded_cylinder_may_move_and_must) {
   Unseen machine;
   machine.cycle.duty_ratio[1] = 0.75;
   machine.cycle.asked_mps[1] = 0.1;
@@ -162,7 +162,7 @@ void a_commanded_cylinder_may_move_and_must(void**) {
 }
 
 /// After its command has ended, dead time and lag of the spool are waited for.
-void a_closing_spool_has_its_time(void**) {
+TEST(a_closing_spool_has_its_time) {
   for (const double dead_time_s : {0.0, 0.2}) {
     Unseen machine;
     machine.profile.control.dead_time_s = dead_time_s;
@@ -181,7 +181,7 @@ void a_closing_spool_has_its_time(void**) {
 }
 
 /// Nobody knows whether they are in their middle: that condition of arming is off.
-void unseen_spools_count_as_centred(void**) {
+TEST(unseen_spools_count_as_centred) {
   ExcavatorValid valid;
   for (ValidDrive& drive : valid.drive) {
     drive.spool_ratio = 1.0;
@@ -190,7 +190,7 @@ void unseen_spools_count_as_centred(void**) {
   assert_true(test::spools_centred(Unseen{}.profile, valid));
 }
 
-void no_echo_no_fault_of_following(void**) {
+TEST(no_echo_no_fault_of_following) {
   for (const bool carried : {true, false}) {
     Unseen machine;
     machine.profile.bus.valve_echo = carried;
@@ -200,7 +200,7 @@ void no_echo_no_fault_of_following(void**) {
 }
 
 /// Its swash is no signal that is missing.
-void the_command_stands_in_for_the_swash(void**) {
+TEST(the_command_stands_in_for_the_swash) {
   const ExcavatorProfile profile =
       with_bus(test::plain_machine(), &BusCapabilities::swash_feedback);
   ExcavatorInputs inputs = test::complete_inputs(kSecondUs);
@@ -211,7 +211,7 @@ void the_command_stands_in_for_the_swash(void**) {
 }
 
 /// A pump that sets its own swash has none that is missing.
-void a_regulated_pump_tells_no_swash(void**) {
+TEST(a_regulated_pump_tells_no_swash) {
   ExcavatorProfile profile = test::plain_machine();
   ExcavatorInputs inputs = test::complete_inputs(kSecondUs);
   no_swash(inputs);
@@ -225,7 +225,7 @@ void a_regulated_pump_tells_no_swash(void**) {
 }
 
 /// Nothing is held against a pump's command but what the bus carries.
-void a_swash_that_is_not_carried_is_not_judged(void**) {
+TEST(a_swash_that_is_not_carried_is_not_judged) {
   for (const bool carried : {true, false}) {
     const ExcavatorProfile profile =
         carried ? test::plain_machine()
@@ -245,7 +245,7 @@ void a_swash_that_is_not_carried_is_not_judged(void**) {
   }
 }
 
-void a_dozer_without_them_is_not_asked_either(void**) {
+TEST(a_dozer_without_them_is_not_asked_either) {
   struct DozerCase {
     bool BusCapabilities::*lacks;
     void (*silence)(DozerInputs&);
@@ -273,7 +273,7 @@ void a_dozer_without_them_is_not_asked_either(void**) {
 }
 
 /// The blade's spool stuck open shows where it is measured; unseen, a blade that runs off shows.
-void the_blade_is_watched_by_its_command(void**) {
+TEST(the_blade_is_watched_by_its_command) {
   DozerProfile profile = test::plain_dozer();
   profile.bus.spool_feedback = false;
   DozerWatchState state;
@@ -303,22 +303,4 @@ void the_blade_is_watched_by_its_command(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(our_own_bus_lacks_nothing),
-      cmocka_unit_test(what_the_bus_lacks_is_not_asked_for),
-      cmocka_unit_test(what_the_bus_should_say_is_missed),
-      cmocka_unit_test(each_lack_excuses_itself_alone),
-      cmocka_unit_test(the_command_stands_in_for_the_spool),
-      cmocka_unit_test(a_commanded_cylinder_may_move_and_must),
-      cmocka_unit_test(a_closing_spool_has_its_time),
-      cmocka_unit_test(unseen_spools_count_as_centred),
-      cmocka_unit_test(no_echo_no_fault_of_following),
-      cmocka_unit_test(the_command_stands_in_for_the_swash),
-      cmocka_unit_test(a_regulated_pump_tells_no_swash),
-      cmocka_unit_test(a_swash_that_is_not_carried_is_not_judged),
-      cmocka_unit_test(a_dozer_without_them_is_not_asked_either),
-      cmocka_unit_test(the_blade_is_watched_by_its_command),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

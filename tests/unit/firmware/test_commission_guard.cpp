@@ -6,7 +6,7 @@ namespace {
 using namespace graben;
 using namespace graben::test::guarded;
 
-void a_duty_in_its_window_is_sent(void**) {
+TEST(a_duty_in_its_window_is_sent) {
   for (const double duty : {0.3, -0.3, 1.0, -1.0}) {
     Cylinder cylinder;
     cylinder.step(duty, 0.0);
@@ -16,7 +16,7 @@ void a_duty_in_its_window_is_sent(void**) {
 }
 
 /// One that the cylinder does not have is none.
-void without_a_window_nothing_is_sent(void**) {
+TEST(without_a_window_nothing_is_sent) {
   constexpr double beyond = 0.002;
   for (const StrokeWindow& window :
        {StrokeWindow{}, StrokeWindow{0.2, 0.8, 0.0}, StrokeWindow{0.5, 0.5, 0.5},
@@ -37,7 +37,7 @@ void without_a_window_nothing_is_sent(void**) {
   assert_near(whole.result.duty_ratio, 0.3, 0.0);
 }
 
-void a_window_has_its_bounds(void**) {
+TEST(a_window_has_its_bounds) {
   const DriveRow row = excavator_bank(test::plain_machine()).row[2];
   assert_true(is_window(row, kWhole));
   assert_true(is_window(row, {-0.0009, kStroke_m + 0.0009, 0.5}));
@@ -51,7 +51,7 @@ void a_window_has_its_bounds(void**) {
 }
 
 /// One of its ends is the cylinder's, the other one's own.
-void each_end_of_a_window_is_its_own(void**) {
+TEST(each_end_of_a_window_is_its_own) {
   for (const int side : {1, -1}) {
     const StrokeWindow window =
         side > 0 ? StrokeWindow{0.2, kStroke_m, 0.5} : StrokeWindow{0.0, 0.8, 0.5};
@@ -69,7 +69,7 @@ void each_end_of_a_window_is_its_own(void**) {
 
 /// It is held back where its speed will have taken it out before it can be stopped, and no sooner;
 /// and stays so until something else is asked for. Back it may go at once.
-void it_is_stopped_before_the_edge(void**) {
+TEST(it_is_stopped_before_the_edge) {
   for (const int side : {1, -1}) {
     Cylinder cylinder;
     constexpr double speed_mps = 0.2;
@@ -92,7 +92,7 @@ void it_is_stopped_before_the_edge(void**) {
 }
 
 /// At rest at the edge, and beyond it: back only.
-void outside_only_back_is_free(void**) {
+TEST(outside_only_back_is_free) {
   for (const double stroke_m : {0.8, 0.83}) {
     Cylinder cylinder(stroke_m);
     cylinder.step(0.4, 0.0);
@@ -102,7 +102,7 @@ void outside_only_back_is_free(void**) {
   }
 }
 
-void farther_outside_is_a_fault(void**) {
+TEST(farther_outside_is_a_fault) {
   for (const int side : {1, -1}) {
     Cylinder cylinder(0.5 + side * (0.3 + kOutside_m - 0.001));
     assert_int_equal(cylinder.step(0.0, 0.0), Fault::kNone);
@@ -114,7 +114,7 @@ void farther_outside_is_a_fault(void**) {
 }
 
 /// One that begins there may come back, and then has to stay.
-void who_begins_outside_may_come_in(void**) {
+TEST(who_begins_outside_may_come_in) {
   for (const int side : {1, -1}) {
     Cylinder cylinder(0.5 + side * 0.45);
     assert_int_equal(cylinder.step(0.4 * side, 0.0), Fault::kNone);
@@ -125,7 +125,7 @@ void who_begins_outside_may_come_in(void**) {
   }
 }
 
-void faster_than_confirmed_is_a_fault(void**) {
+TEST(faster_than_confirmed_is_a_fault) {
   for (const int side : {1, -1}) {
     Cylinder slower;
     assert_int_equal(slower.run(0.5, 0.4 * side, 0.49 * side), Fault::kNone);
@@ -135,7 +135,7 @@ void faster_than_confirmed_is_a_fault(void**) {
 }
 
 /// From rest every step against the duty counts, whatever the machine's dead time.
-void a_reversed_valve_is_stopped_within_50_mm(void**) {
+TEST(a_reversed_valve_is_stopped_within_50_mm) {
   for (const int side : {1, -1}) {
     for (const double speed_mps : {0.003, 0.008, 0.015, 0.05, 0.3}) {
       Cylinder cylinder;
@@ -147,7 +147,7 @@ void a_reversed_valve_is_stopped_within_50_mm(void**) {
 }
 
 /// A load that sinks while the spool is at its edge.
-void what_creeps_is_no_wrong_direction(void**) {
+TEST(what_creeps_is_no_wrong_direction) {
   Cylinder cylinder;
   assert_int_equal(cylinder.run(2.0, 0.15, -0.0055), Fault::kNone);
   Cylinder still;
@@ -155,7 +155,7 @@ void what_creeps_is_no_wrong_direction(void**) {
 }
 
 /// After a reversal a slow machine goes on for as long as its dead time and lags.
-void a_drive_may_coast_against_a_new_duty(void**) {
+TEST(a_drive_may_coast_against_a_new_duty) {
   Cylinder cylinder(0.3);
   assert_int_equal(cylinder.run(0.8, 0.4, 0.2), Fault::kNone);
   assert_int_equal(cylinder.run(0.55, -0.4, 0.2), Fault::kNone);
@@ -165,7 +165,7 @@ void a_drive_may_coast_against_a_new_duty(void**) {
 }
 
 /// Also while it comes to rest; then it has to stand.
-void a_drive_may_coast_without_a_duty(void**) {
+TEST(a_drive_may_coast_without_a_duty) {
   Cylinder cylinder(0.3);
   assert_int_equal(cylinder.run(0.8, 0.4, 0.1), Fault::kNone);
   assert_int_equal(cylinder.run(0.95, 0.0, 0.1), Fault::kNone);
@@ -175,7 +175,7 @@ void a_drive_may_coast_without_a_duty(void**) {
 }
 
 /// While another is: however slowly, its sensor may be that one's.
-void a_drive_beside_a_driven_one_stands(void**) {
+TEST(a_drive_beside_a_driven_one_stands) {
   for (const int side : {1, -1}) {
     Cylinder cylinder;
     cylinder.ask.alone = false;
@@ -195,7 +195,7 @@ void a_drive_beside_a_driven_one_stands(void**) {
   }
 }
 
-void a_drive_that_is_not_driven_stands(void**) {
+TEST(a_drive_that_is_not_driven_stands) {
   for (const int side : {1, -1}) {
     Cylinder cylinder;
     assert_int_equal(cylinder.run(1.0, 0.0, 0.1 * side), Fault::kUncommandedMotion);
@@ -204,7 +204,7 @@ void a_drive_that_is_not_driven_stands(void**) {
 }
 
 /// An end that the window reaches may be met slowly, and pushed against for a second.
-void an_end_may_be_touched(void**) {
+TEST(an_end_may_be_touched) {
   for (const int side : {1, -1}) {
     Cylinder cylinder(side > 0 ? 0.95 : 0.05, kWhole);
     assert_int_equal(cylinder.run(2.0, 0.3 * side, 0.022 * side), Fault::kNone);
@@ -224,7 +224,7 @@ void an_end_may_be_touched(void**) {
   }
 }
 
-void an_end_is_not_met_fast(void**) {
+TEST(an_end_is_not_met_fast) {
   for (const int side : {1, -1}) {
     Cylinder cylinder(0.5, kWhole);
     while (!cylinder.result.held) {
@@ -238,25 +238,4 @@ void an_end_is_not_met_fast(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_duty_in_its_window_is_sent),
-      cmocka_unit_test(without_a_window_nothing_is_sent),
-      cmocka_unit_test(a_window_has_its_bounds),
-      cmocka_unit_test(each_end_of_a_window_is_its_own),
-      cmocka_unit_test(it_is_stopped_before_the_edge),
-      cmocka_unit_test(outside_only_back_is_free),
-      cmocka_unit_test(farther_outside_is_a_fault),
-      cmocka_unit_test(who_begins_outside_may_come_in),
-      cmocka_unit_test(faster_than_confirmed_is_a_fault),
-      cmocka_unit_test(a_reversed_valve_is_stopped_within_50_mm),
-      cmocka_unit_test(what_creeps_is_no_wrong_direction),
-      cmocka_unit_test(a_drive_may_coast_against_a_new_duty),
-      cmocka_unit_test(a_drive_may_coast_without_a_duty),
-      cmocka_unit_test(a_drive_beside_a_driven_one_stands),
-      cmocka_unit_test(a_drive_that_is_not_driven_stands),
-      cmocka_unit_test(an_end_may_be_touched),
-      cmocka_unit_test(an_end_is_not_met_fast),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

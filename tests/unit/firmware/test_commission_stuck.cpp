@@ -9,7 +9,7 @@ using namespace graben;
 using namespace graben::test::guarded;
 
 /// Any edge is open at seven tenths.
-void a_stroke_that_stands_at_a_large_duty_is_stuck(void**) {
+TEST(a_stroke_that_stands_at_a_large_duty_is_stuck) {
   for (const int side : {1, -1}) {
     Cylinder cylinder;
     assert_int_equal(cylinder.run(0.98, 0.7 * side, 0.0), Fault::kNone);
@@ -20,7 +20,7 @@ void a_stroke_that_stands_at_a_large_duty_is_stuck(void**) {
 }
 
 /// A ramp to the last edge there is must be possible, as must a small duty for a while.
-void below_an_edge_it_may_stand_for_a_while(void**) {
+TEST(below_an_edge_it_may_stand_for_a_while) {
   Cylinder ramp;
   for (double duty = 0.0; duty < 0.65; duty += 0.08 * kPeriod_s) {
     assert_int_equal(ramp.step(duty, 0.0), Fault::kNone);
@@ -33,7 +33,7 @@ void below_an_edge_it_may_stand_for_a_while(void**) {
 }
 
 /// Where it once moved with less, it has to again; each side has its own.
-void a_duty_that_has_moved_it_has_to_move_it_again(void**) {
+TEST(a_duty_that_has_moved_it_has_to_move_it_again) {
   for (const int side : {1, -1}) {
     Cylinder cylinder;
     assert_int_equal(cylinder.run(1.5, 0.3 * side, 0.05 * side), Fault::kNone);
@@ -75,7 +75,7 @@ void a_duty_that_has_moved_it_has_to_move_it_again(void**) {
 }
 
 /// Against a rock, at any duty.
-void a_cylinder_that_strains_is_stuck(void**) {
+TEST(a_cylinder_that_strains_is_stuck) {
   for (const int side : {1, -1}) {
     Cylinder cylinder;
     cylinder.ask.alone = false;
@@ -97,7 +97,7 @@ void a_cylinder_that_strains_is_stuck(void**) {
 }
 
 /// Its sensor hangs, its oil flows.
-void pressures_that_have_changed_say_that_it_moves(void**) {
+TEST(pressures_that_have_changed_say_that_it_moves) {
   for (const bool alone : {true, false}) {
     Cylinder cylinder;
     cylinder.ask.alone = alone;
@@ -123,7 +123,7 @@ void pressures_that_have_changed_say_that_it_moves(void**) {
 }
 
 /// Where it has moved before, it takes more to say so, and nothing is held: a step goes at once.
-void pressures_of_a_side_that_has_moved(void**) {
+TEST(pressures_of_a_side_that_has_moved) {
   for (const int side : {1, -1}) {
     Cylinder moved;
     assert_int_equal(moved.run(1.5, 0.3 * side, 0.05 * side), Fault::kNone);
@@ -143,7 +143,7 @@ void pressures_of_a_side_that_has_moved(void**) {
 
 /// Pressures that change tell of an edge that opens: no more is tried before something moves, then
 /// little by little.
-void what_may_move_unseen_is_held_back(void**) {
+TEST(what_may_move_unseen_is_held_back) {
   for (const int side : {1, -1}) {
     Cylinder cylinder;
     cylinder.run(0.2, 0.2 * side, 0.0);
@@ -173,15 +173,4 @@ void what_may_move_unseen_is_held_back(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_stroke_that_stands_at_a_large_duty_is_stuck),
-      cmocka_unit_test(below_an_edge_it_may_stand_for_a_while),
-      cmocka_unit_test(a_duty_that_has_moved_it_has_to_move_it_again),
-      cmocka_unit_test(a_cylinder_that_strains_is_stuck),
-      cmocka_unit_test(pressures_that_have_changed_say_that_it_moves),
-      cmocka_unit_test(pressures_of_a_side_that_has_moved),
-      cmocka_unit_test(what_may_move_unseen_is_held_back),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

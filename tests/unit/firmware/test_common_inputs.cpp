@@ -41,7 +41,7 @@ Fault only_of(const FaultSet& faults) {
   return faults.first();
 }
 
-void what_is_there_is_read(void**) {
+TEST(what_is_there_is_read) {
   Machine machine;
   machine.inputs.driver.task_number = test::fresh<std::uint8_t>(7, kNow);
   const CommonValid valid = machine.read();
@@ -54,7 +54,7 @@ void what_is_there_is_read(void**) {
   assert_int_equal(machine.read().task_number, -1);
 }
 
-void each_of_the_operators_signals_is_required(void**) {
+TEST(each_of_the_operators_signals_is_required) {
   TimeUs* (*const stamps[])(OperatorInputs&) = {
       [](OperatorInputs& driver) { return &driver.enable.stamp_us; },
       [](OperatorInputs& driver) { return &driver.mode.stamp_us; },
@@ -76,7 +76,7 @@ void each_of_the_operators_signals_is_required(void**) {
 }
 
 /// A number that no mode has is none of them.
-void only_automatic_is_automatic(void**) {
+TEST(only_automatic_is_automatic) {
   Machine machine;
   for (const int mode : {0, 1, 2}) {
     machine.inputs.driver.mode.value = static_cast<OperatorMode>(mode);
@@ -84,7 +84,7 @@ void only_automatic_is_automatic(void**) {
   }
 }
 
-void each_state_of_the_bus_has_its_fault(void**) {
+TEST(each_state_of_the_bus_has_its_fault) {
   const struct {
     BusState state;
     Fault fault;
@@ -99,7 +99,7 @@ void each_state_of_the_bus_has_its_fault(void**) {
   }
 }
 
-void the_links_own_faults_are_taken_over(void**) {
+TEST(the_links_own_faults_are_taken_over) {
   Machine machine;
   machine.inputs.link.message_faults.add(Fault::kMessageCorrupt);
   assert_int_equal(only_of(machine.read().faults), Fault::kMessageCorrupt);
@@ -114,7 +114,7 @@ void the_links_own_faults_are_taken_over(void**) {
   }
 }
 
-void another_machine_or_none_is_refused(void**) {
+TEST(another_machine_or_none_is_refused) {
   Machine other;
   other.inputs.same_machine.value = false;
   assert_int_equal(only_of(other.read().faults), Fault::kIdentityMismatch);
@@ -127,7 +127,7 @@ void another_machine_or_none_is_refused(void**) {
   assert_true(silent.read().faults.empty());
 }
 
-void an_engine_below_idle_does_not_run(void**) {
+TEST(an_engine_below_idle_does_not_run) {
   Machine machine;
   Signal<double>& speed = machine.inputs.engine_speed_radps;
   for (const double radps : {80.0, 81.0, 240.0}) {
@@ -143,7 +143,7 @@ void an_engine_below_idle_does_not_run(void**) {
 }
 
 /// What no engine runs at is not measured either; slow is safe.
-void an_engine_that_is_not_known_is_at_idle(void**) {
+TEST(an_engine_that_is_not_known_is_at_idle) {
   Machine fast;
   fast.inputs.engine_speed_radps.value = std::nextafter(240.0, 300.0);
   Machine old;
@@ -156,7 +156,7 @@ void an_engine_that_is_not_known_is_at_idle(void**) {
   }
 }
 
-void a_stand_in_is_said(void**) {
+TEST(a_stand_in_is_said) {
   Machine machine;
   assert_false(machine.read().stand_in);
   machine.inputs.link.cannot_answer = true;
@@ -166,7 +166,7 @@ void a_stand_in_is_said(void**) {
   assert_true(machine.read().stand_in);
 }
 
-void the_valves_echo_is_read_where_the_bus_has_it(void**) {
+TEST(the_valves_echo_is_read_where_the_bus_has_it) {
   Machine machine;
   assert_false(machine.read().valve_enabled);
   machine.inputs.valve_enabled.value = true;
@@ -181,7 +181,7 @@ void the_valves_echo_is_read_where_the_bus_has_it(void**) {
 }
 
 /// Pressure and swash slow in motion, a stroke never does.
-void faults_stop_or_slow(void**) {
+TEST(faults_stop_or_slow) {
   for (const bool moving : {false, true}) {
     CommonValid slowing = with_fault(Fault::kPressureMissing);
     slowing.faults.add(Fault::kSwashDisagrees);
@@ -203,7 +203,7 @@ void faults_stop_or_slow(void**) {
 }
 
 /// As long as the last value before a jump is in time it only slows.
-void a_bridged_jump_slows(void**) {
+TEST(a_bridged_jump_slows) {
   const Bridge bridge{Fault::kStrokeJump, Fault::kStrokeMissing};
   CommonValid jumped = with_fault(Fault::kStrokeJump);
   sort_faults(true, {bridge}, jumped);
@@ -219,7 +219,7 @@ void a_bridged_jump_slows(void**) {
   assert_true(jumped.degraded.empty());
 }
 
-void what_stops_slows_or_is_said_is_added(void**) {
+TEST(what_stops_slows_or_is_said_is_added) {
   CommonValid valid;
   stop(with_fault(Fault::kStalled).faults, valid);
   stop(with_fault(Fault::kBusOff).faults, valid);
@@ -252,7 +252,7 @@ struct Slowing {
 };
 
 /// The least of the last 0.2 s; without a task nothing is held.
-void the_override_is_the_least_of_late(void**) {
+TEST(the_override_is_the_least_of_late) {
   Slowing machine;
   assert_near(machine.step(Task::kNone, 0.0), 0.0, 0.0);
   for (const Task task : {Task::kDig, Task::kGrade, Task::kProgram}) {
@@ -268,7 +268,7 @@ void the_override_is_the_least_of_late(void**) {
 }
 
 /// As low once more counts from then on.
-void the_override_is_held_from_its_last_least(void**) {
+TEST(the_override_is_held_from_its_last_least) {
   Slowing machine;
   machine.step(Task::kDig, 0.25);
   machine.step(Task::kDig, 1.0);
@@ -283,7 +283,7 @@ void the_override_is_held_from_its_last_least(void**) {
   assert_near(machine.step(Task::kDig, 1.0), 1.0, 0.0);
 }
 
-void what_degraded_slows_for_a_second(void**) {
+TEST(what_degraded_slows_for_a_second) {
   Slowing machine;
   assert_near(machine.step(Task::kDig, 1.0), 1.0, 0.0);
   assert_near(machine.seen.engine_radps, 150.0, 0.0);
@@ -305,7 +305,7 @@ void what_degraded_slows_for_a_second(void**) {
   assert_near(machine.step(Task::kDig, 1.0), 1.0, 0.0);
 }
 
-void closing_ends_centred_or_by_hand(void**) {
+TEST(closing_ends_centred_or_by_hand) {
   constexpr Fault kUnseen = Fault::kSpoolMissing;
   CommonValid valid;
   valid.automatic = true;
@@ -322,25 +322,4 @@ void closing_ends_centred_or_by_hand(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_there_is_read),
-      cmocka_unit_test(each_of_the_operators_signals_is_required),
-      cmocka_unit_test(only_automatic_is_automatic),
-      cmocka_unit_test(each_state_of_the_bus_has_its_fault),
-      cmocka_unit_test(the_links_own_faults_are_taken_over),
-      cmocka_unit_test(another_machine_or_none_is_refused),
-      cmocka_unit_test(an_engine_below_idle_does_not_run),
-      cmocka_unit_test(an_engine_that_is_not_known_is_at_idle),
-      cmocka_unit_test(a_stand_in_is_said),
-      cmocka_unit_test(the_valves_echo_is_read_where_the_bus_has_it),
-      cmocka_unit_test(faults_stop_or_slow),
-      cmocka_unit_test(a_bridged_jump_slows),
-      cmocka_unit_test(what_stops_slows_or_is_said_is_added),
-      cmocka_unit_test(the_override_is_the_least_of_late),
-      cmocka_unit_test(the_override_is_held_from_its_last_least),
-      cmocka_unit_test(what_degraded_slows_for_a_second),
-      cmocka_unit_test(closing_ends_centred_or_by_hand),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -13,7 +13,7 @@ constexpr TimeUs kPeriod = Running::kPeriod;
 
 const ExcavatorProfile& profile() { return test::excavator().profile; }
 
-void starts_silent_and_neutral(void**) {
+TEST(starts_silent_and_neutral) {
   const ExcavatorSetup setup(profile());
   ExcavatorController controller(setup);
   const ExcavatorOutputs outputs = controller.step({}, 0);
@@ -21,7 +21,7 @@ void starts_silent_and_neutral(void**) {
   assert_neutral(outputs);
 }
 
-void moves_once_armed_with_a_task(void**) {
+TEST(moves_once_armed_with_a_task) {
   Running running;
   assert_int_equal(running.outputs.status.mode, EcuMode::kActive);
   assert_true(running.outputs.enable);
@@ -34,7 +34,7 @@ void moves_once_armed_with_a_task(void**) {
 }
 
 /// Each spool moves the way its cylinder is wanted to.
-void duties_have_the_wanted_velocitys_signs(void**) {
+TEST(duties_have_the_wanted_velocitys_signs) {
   Running running;
   const ExcavatorOutputs outputs = running.step(running.inputs());
   for (unsigned i = 0; i < kAxisCount; ++i) {
@@ -44,7 +44,7 @@ void duties_have_the_wanted_velocitys_signs(void**) {
   }
 }
 
-void released_enable_is_neutral_in_the_same_cycle(void**) {
+TEST(released_enable_is_neutral_in_the_same_cycle) {
   Running running;
   ExcavatorInputs released = running.inputs();
   released.driver.enable.value = false;
@@ -52,7 +52,7 @@ void released_enable_is_neutral_in_the_same_cycle(void**) {
 }
 
 /// 50 ms without a sensor: neutral, and latched until the operator lets go.
-void a_missing_sensor_is_neutral_within_50_ms(void**) {
+TEST(a_missing_sensor_is_neutral_within_50_ms) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     Running running;
     const TimeUs last_us = running.now_us - kPeriod;
@@ -70,7 +70,7 @@ void a_missing_sensor_is_neutral_within_50_ms(void**) {
 }
 
 /// Fresh inputs after a pause do not make up for what was not seen.
-void a_stalled_cycle_is_neutral_and_latched(void**) {
+TEST(a_stalled_cycle_is_neutral_and_latched) {
   Running running;
   running.now_us += 30 * kMillisecondUs;
   assert_true(running.step(running.inputs()).enable);
@@ -85,7 +85,7 @@ void a_stalled_cycle_is_neutral_and_latched(void**) {
 /// Loads against every cylinder, just below where the sensors end and above what a pump's relief
 /// lets it push: told within 0.7 s for the load's filter, and no spool opens against it. What is
 /// open lets the pressure off.
-void an_impossible_load_is_not_pushed(void**) {
+TEST(an_impossible_load_is_not_pushed) {
   Running running;
   ExcavatorOutputs outputs;
   for (int n = 0; n < 70; ++n) {
@@ -106,7 +106,7 @@ void an_impossible_load_is_not_pushed(void**) {
 
 /// The load's filter starts with what it sees: a start right after switching on is the same as one
 /// after a second of rest, which any filter has followed.
-void every_start_sees_its_own_load(void**) {
+TEST(every_start_sees_its_own_load) {
   Running once;
   Running again;
   again.step(again.at_rest(false));
@@ -125,7 +125,7 @@ void every_start_sees_its_own_load(void**) {
 }
 
 /// From every rest lambda starts at one cycle's rise and goes up by no more.
-void lambda_rises_anew_from_every_rest(void**) {
+TEST(lambda_rises_anew_from_every_rest) {
   const double rise = profile().control.lambda_rise.rate_ps * 0.01;
   Running running;
   for (int start = 0; start < 2; ++start) {
@@ -141,7 +141,7 @@ void lambda_rises_anew_from_every_rest(void**) {
   }
 }
 
-void the_same_inputs_give_the_same_outputs(void**) {
+TEST(the_same_inputs_give_the_same_outputs) {
   Running first;
   Running second;
   for (int n = 0; n < 50; ++n) {
@@ -162,7 +162,7 @@ ExcavatorInputs with_open_spool(ExcavatorInputs inputs) {
 
 /// The deadman is let go, and the spool does not close: the pilot pressure goes, and comes back
 /// with a fresh enable only, although it has centred the spool.
-void a_spool_left_open_cuts_the_pilot_pressure(void**) {
+TEST(a_spool_left_open_cuts_the_pilot_pressure) {
   Running running;
   for (int n = 0; n < 60 && !running.outputs.pilot_cut; ++n) {
     running.step(with_open_spool(running.at_rest(false)));
@@ -179,7 +179,7 @@ void a_spool_left_open_cuts_the_pilot_pressure(void**) {
 }
 
 /// Once the spools have closed, or at once in manual mode, they are the operator's.
-void a_spool_moved_by_hand_is_no_fault(void**) {
+TEST(a_spool_moved_by_hand_is_no_fault) {
   for (const bool manual : {false, true}) {
     Running running;
     running.step(running.at_rest(false));
@@ -196,7 +196,7 @@ void a_spool_moved_by_hand_is_no_fault(void**) {
 
 /// 40 mm at once are too much for the boom in 10 ms, not in 40 ms: frames that were refused give it
 /// no time.
-void a_small_jump_that_stays_stops(void**) {
+TEST(a_small_jump_that_stays_stops) {
   Running running;
   running.step(running.inputs());
   for (int n = 0; n < 5; ++n) {
@@ -211,21 +211,4 @@ void a_small_jump_that_stays_stops(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(starts_silent_and_neutral),
-      cmocka_unit_test(moves_once_armed_with_a_task),
-      cmocka_unit_test(duties_have_the_wanted_velocitys_signs),
-      cmocka_unit_test(released_enable_is_neutral_in_the_same_cycle),
-      cmocka_unit_test(a_missing_sensor_is_neutral_within_50_ms),
-      cmocka_unit_test(a_stalled_cycle_is_neutral_and_latched),
-      cmocka_unit_test(an_impossible_load_is_not_pushed),
-      cmocka_unit_test(every_start_sees_its_own_load),
-      cmocka_unit_test(lambda_rises_anew_from_every_rest),
-      cmocka_unit_test(the_same_inputs_give_the_same_outputs),
-      cmocka_unit_test(a_spool_left_open_cuts_the_pilot_pressure),
-      cmocka_unit_test(a_spool_moved_by_hand_is_no_fault),
-      cmocka_unit_test(a_small_jump_that_stays_stops),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -101,7 +101,7 @@ ExcavatorOutputs after_late(Digging& digging, std::initializer_list<bool> late, 
   return digging.outputs;
 }
 
-void one_late_cycle_is_borne(void**) {
+TEST(one_late_cycle_is_borne) {
   constexpr TimeUs kLate = 5 * kMillisecondUs + 1;
   Digging digging;
   assert_true(after_late(digging, {true}, kLate).enable);
@@ -110,7 +110,7 @@ void one_late_cycle_is_borne(void**) {
   assert_true(after_late(digging, {true, true, true}, kLate - 1).enable);  // 15 ms: in time.
 }
 
-void the_second_late_cycle_in_a_row_stops(void**) {
+TEST(the_second_late_cycle_in_a_row_stops) {
   Digging digging;
   after_late(digging, {true, true}, 5 * kMillisecondUs + 1);
   assert_latched(Fault::kCycleOverrun, digging);
@@ -121,7 +121,7 @@ void the_second_late_cycle_in_a_row_stops(void**) {
               1U);
 }
 
-void told_to_end_is_neutral_for_good(void**) {
+TEST(told_to_end_is_neutral_for_good) {
   Digging digging;
   ExcavatorInputs last = digging.next();
   last.link.stop_requested = true;
@@ -170,13 +170,13 @@ void assert_goes_on_slower(Fault fault, Lose lose) {
   assert_true(digging.wanted_mps() > 2.0 * share * whole_mps);
 }
 
-void a_lost_pressure_slows(void**) {
+TEST(a_lost_pressure_slows) {
   assert_goes_on_slower(Fault::kPressureMissing, [](ExcavatorInputs& inputs) {
     inputs.axis[kArm].cap_pressure_pa.stamp_us -= 60 * kMillisecondUs;
   });
 }
 
-void a_lost_engine_speed_slows(void**) {
+TEST(a_lost_engine_speed_slows) {
   assert_goes_on_slower(Fault::kEngineSpeedMissing, [](ExcavatorInputs& inputs) {
     inputs.engine_speed_radps.validity = Validity::kNotAvailable;
   });
@@ -184,7 +184,7 @@ void a_lost_engine_speed_slows(void**) {
 
 /// A spool that stays open against its command. The pilot pressure stays cut until the operator has
 /// armed again: with the deadman released the spool must not get it back.
-void a_stuck_spool_cuts_the_pilot_until_rearmed(void**) {
+TEST(a_stuck_spool_cuts_the_pilot_until_rearmed) {
   Digging digging;
   int cycles = 0;
   while (digging.outputs.status.mode == EcuMode::kActive) {
@@ -211,7 +211,7 @@ void a_stuck_spool_cuts_the_pilot_until_rearmed(void**) {
 }
 
 /// Whatever stopped the machine first: a spool that then does not close loses its pilot pressure.
-void another_fault_does_not_hide_a_stuck_spool(void**) {
+TEST(another_fault_does_not_hide_a_stuck_spool) {
   for (const bool held : {true, false}) {
     Digging digging;
     ExcavatorInputs inputs = digging.next();
@@ -230,7 +230,7 @@ void another_fault_does_not_hide_a_stuck_spool(void**) {
 }
 
 /// Nor does it outside motion, and the cut stays when the spool is back.
-void a_spool_left_open_stays_without_pilot(void**) {
+TEST(a_spool_left_open_stays_without_pilot) {
   Digging digging;
   for (int n = 0; n < 40; ++n) {
     ExcavatorInputs inputs = digging.at_rest(false);
@@ -244,7 +244,7 @@ void a_spool_left_open_stays_without_pilot(void**) {
 }
 
 /// Until it has armed or asked for a cut a process does not know what one before it has asked for.
-void a_start_leaves_the_pilot_as_it_is(void**) {
+TEST(a_start_leaves_the_pilot_as_it_is) {
   const ExcavatorSetup setup(test::excavator().profile);
   ExcavatorController controller(setup);
   assert_false(controller.step({}, 0).pilot_known);
@@ -254,7 +254,7 @@ void a_start_leaves_the_pilot_as_it_is(void**) {
 }
 
 /// Enable that is given and not confirmed.
-void a_deaf_valve_cuts_the_pilot(void**) {
+TEST(a_deaf_valve_cuts_the_pilot) {
   Digging digging;
   for (int n = 0; n < kEchoCycles; ++n) {
     assert_int_equal(digging.outputs.status.mode, EcuMode::kActive);
@@ -269,7 +269,7 @@ void a_deaf_valve_cuts_the_pilot(void**) {
 
 /// Enable that is confirmed without having been given: cut while it is so, and no longer, because
 /// nobody was in motion.
-void a_valve_that_enables_itself_cuts_the_pilot(void**) {
+TEST(a_valve_that_enables_itself_cuts_the_pilot) {
   Digging digging;
   digging.step(digging.at_rest(false));
   for (int n = 0; n < kEchoCycles; ++n) {
@@ -285,7 +285,7 @@ void a_valve_that_enables_itself_cuts_the_pilot(void**) {
 }
 
 /// What stops for other reasons leaves the pilot alone.
-void other_faults_leave_the_pilot(void**) {
+TEST(other_faults_leave_the_pilot) {
   Digging digging;
   ExcavatorInputs inputs = digging.next();
   inputs.link.bus = BusState::kOff;
@@ -294,7 +294,7 @@ void other_faults_leave_the_pilot(void**) {
 }
 
 /// Any bit of the mode: neutral in this cycle, latched; nothing of what it has become counts.
-void a_flipped_bit_of_the_mode_stops(void**) {
+TEST(a_flipped_bit_of_the_mode_stops) {
   Digging before;
   for (std::size_t bit = 0; bit < 8 * sizeof(Guarded<ModeState>); ++bit) {
     Digging digging = before;
@@ -309,7 +309,7 @@ void a_flipped_bit_of_the_mode_stops(void**) {
   assert_int_equal(before.outputs.status.mode, EcuMode::kReady);
 }
 
-void a_flipped_bit_of_lambda_stops(void**) {
+TEST(a_flipped_bit_of_lambda_stops) {
   Digging before;
   for (std::size_t bit = 0; bit < 8 * sizeof(Guarded<double>); ++bit) {
     Digging digging = before;
@@ -319,7 +319,7 @@ void a_flipped_bit_of_lambda_stops(void**) {
   }
 }
 
-void a_flipped_bit_of_an_opening_stops(void**) {
+TEST(a_flipped_bit_of_an_opening_stops) {
   Digging before;
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     Digging digging = before;
@@ -330,7 +330,7 @@ void a_flipped_bit_of_an_opening_stops(void**) {
 }
 
 /// All that are there are in the set; the first that stopped is the fault.
-void the_status_names_all_faults(void**) {
+TEST(the_status_names_all_faults) {
   Digging digging;
   ExcavatorInputs inputs = digging.next();
   inputs.link.bus = BusState::kPassive;
@@ -347,24 +347,4 @@ void the_status_names_all_faults(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(one_late_cycle_is_borne),
-      cmocka_unit_test(the_second_late_cycle_in_a_row_stops),
-      cmocka_unit_test(told_to_end_is_neutral_for_good),
-      cmocka_unit_test(a_lost_pressure_slows),
-      cmocka_unit_test(a_lost_engine_speed_slows),
-      cmocka_unit_test(a_stuck_spool_cuts_the_pilot_until_rearmed),
-      cmocka_unit_test(another_fault_does_not_hide_a_stuck_spool),
-      cmocka_unit_test(a_spool_left_open_stays_without_pilot),
-      cmocka_unit_test(a_start_leaves_the_pilot_as_it_is),
-      cmocka_unit_test(a_deaf_valve_cuts_the_pilot),
-      cmocka_unit_test(a_valve_that_enables_itself_cuts_the_pilot),
-      cmocka_unit_test(other_faults_leave_the_pilot),
-      cmocka_unit_test(a_flipped_bit_of_the_mode_stops),
-      cmocka_unit_test(a_flipped_bit_of_lambda_stops),
-      cmocka_unit_test(a_flipped_bit_of_an_opening_stops),
-      cmocka_unit_test(the_status_names_all_faults),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

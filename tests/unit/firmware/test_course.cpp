@@ -36,7 +36,7 @@ struct Curve {
   GradeDesign grade_;
 };
 
-void on_an_arc_the_edge_is_outside_of_it(void**) {
+TEST(on_an_arc_the_edge_is_outside_of_it) {
   for (const double radius_m : {20.0, -12.0}) {
     const Curve curve(1.0 / radius_m);
     const EdgeCourse edge = edge_course(curve.design(), 30.0, {}, kReach_m);
@@ -54,7 +54,7 @@ void on_an_arc_the_edge_is_outside_of_it(void**) {
 }
 
 /// The edge of a machine in a left curve lies turned to the right: its left end ahead.
-void an_askew_edge_has_a_share_of_the_grade(void**) {
+TEST(an_askew_edge_has_a_share_of_the_grade) {
   const Curve curve(0.05, 0.1, 0.03);
   const CrossSample along = slope_along_edge(curve.design(), 30.0, -0.11);
   assert_near(along.slope, std::cos(0.11) * 0.03 + std::sin(0.11) * 0.1, 1e-9);
@@ -87,7 +87,7 @@ struct Driven {
   }
 };
 
-void forward_the_edge_keeps_to_the_track(void**) {
+TEST(forward_the_edge_keeps_to_the_track) {
   for (const double slips : {0.0, 0.3}) {
     const Curve curve(0.05);
     const GradeProfile design = curve.design();
@@ -102,7 +102,7 @@ void forward_the_edge_keeps_to_the_track(void**) {
   }
 }
 
-void it_comes_back_from_beside(void**) {
+TEST(it_comes_back_from_beside) {
   const Curve straight(0.0);
   const GradeProfile design = straight.design();
   Driven machine{design};
@@ -112,7 +112,7 @@ void it_comes_back_from_beside(void**) {
   assert_near(machine.course.heading_rad, 0.0, 2e-3);
 }
 
-void backward_the_origin_is_led(void**) {
+TEST(backward_the_origin_is_led) {
   const Curve curve(-0.06);
   const GradeProfile design = curve.design();
   Driven machine{design, 0.1, 60.0, {0.2, 0.05, 0.0}};
@@ -123,7 +123,7 @@ void backward_the_origin_is_led(void**) {
 }
 
 /// Nothing turns it tighter, and a machine at rest learns nothing.
-void it_is_bounded(void**) {
+TEST(it_is_bounded) {
   const Curve straight(0.0);
   const GradeProfile design = straight.design();
   SteeringState state;
@@ -134,7 +134,7 @@ void it_is_bounded(void**) {
   assert_near(state.trim_pm, 0.0, 0.0);
 }
 
-void a_course_goes_on(void**) {
+TEST(a_course_goes_on) {
   const Curve curve(0.05);
   const Course after = course_after(curve.design(), {0.1, 0.02, 0.03}, 30.0, 1.0, 0.2);
   assert_near(after.offset_m, 0.1 + 0.2 * std::sin(0.02), 1e-12);
@@ -143,15 +143,4 @@ void a_course_goes_on(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(on_an_arc_the_edge_is_outside_of_it),
-      cmocka_unit_test(an_askew_edge_has_a_share_of_the_grade),
-      cmocka_unit_test(forward_the_edge_keeps_to_the_track),
-      cmocka_unit_test(it_comes_back_from_beside),
-      cmocka_unit_test(backward_the_origin_is_led),
-      cmocka_unit_test(it_is_bounded),
-      cmocka_unit_test(a_course_goes_on),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

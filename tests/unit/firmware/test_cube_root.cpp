@@ -48,7 +48,7 @@ double ulps_off(double number) {
   return std::abs(left) / (3.0 * square.value) / unit;
 }
 
-void it_is_within_a_unit_in_the_last_place(void**) {
+TEST(it_is_within_a_unit_in_the_last_place) {
   std::mt19937_64 random(1);
   double worst = 0.0;
   for (int n = 0; n < 300000; ++n) {
@@ -67,14 +67,14 @@ void it_is_within_a_unit_in_the_last_place(void**) {
   assert_true(worst > 0.5);
 }
 
-void cubes_of_small_whole_numbers_are_exact(void**) {
+TEST(cubes_of_small_whole_numbers_are_exact) {
   for (int n = 1; n <= 1000; ++n) {
     assert_near(cube_root(static_cast<double>(n) * n * n), n, 0.0);
     assert_near(cube_root(-static_cast<double>(n) * n * n), -n, 0.0);
   }
 }
 
-void the_ends_of_the_range_have_theirs(void**) {
+TEST(the_ends_of_the_range_have_theirs) {
   constexpr double kMost = std::numeric_limits<double>::max();
   constexpr double kLeast = std::numeric_limits<double>::denorm_min();
   for (const double value : {kMost, kLeast, 0x1p-1022, 0x1p900, 0x1p-900, 0x1.8p900, 0x1p-901}) {
@@ -83,7 +83,7 @@ void the_ends_of_the_range_have_theirs(void**) {
   }
 }
 
-void what_has_no_digits_is_returned(void**) {
+TEST(what_has_no_digits_is_returned) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   assert_int_equal(bits_of(cube_root(0.0)), bits_of(0.0));
   assert_int_equal(bits_of(cube_root(-0.0)), bits_of(-0.0));
@@ -93,19 +93,8 @@ void what_has_no_digits_is_returned(void**) {
 }
 
 /// The same bits on every target: what this one has to give, taken from IEEE 754 arithmetic.
-void its_bits_are_these(void**) {
-  assert_true(bits_of(cube_root(2.0)) == bits_of(0x1.428a2f98d728bp+0));
-}
+TEST(its_bits_are_these) { assert_true(bits_of(cube_root(2.0)) == bits_of(0x1.428a2f98d728bp+0)); }
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_is_within_a_unit_in_the_last_place),
-      cmocka_unit_test(cubes_of_small_whole_numbers_are_exact),
-      cmocka_unit_test(the_ends_of_the_range_have_theirs),
-      cmocka_unit_test(what_has_no_digits_is_returned),
-      cmocka_unit_test(its_bits_are_these),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

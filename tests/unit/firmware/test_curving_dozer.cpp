@@ -29,7 +29,7 @@ DozerProfile on(const CurvedDesign& design) {
   return profile;
 }
 
-void it_steers_along_the_curve(void**) {
+TEST(it_steers_along_the_curve) {
   for (const double radius_m : {20.0, -12.0}) {
     const CurvedDesign design(1.0 / radius_m);
     Grading grading(on(design));
@@ -46,7 +46,7 @@ void it_steers_along_the_curve(void**) {
 
 /// Where the engine is slow the outer track holds the machine: v (1 + d / R) is its fastest, and
 /// that is so from before the curve on.
-void the_outer_track_limits_the_speed(void**) {
+TEST(the_outer_track_limits_the_speed) {
   const double radius_m = 10.0;
   const CurvedDesign design(1.0 / radius_m);
   DozerProfile profile = on(design);
@@ -80,7 +80,7 @@ void assert_stops(Fault fault, const std::function<void(DozerInputs&)>& change) 
   test::assert_neutral(grading.outputs);
 }
 
-void where_it_is_has_to_be_known(void**) {
+TEST(where_it_is_has_to_be_known) {
   for (auto signal :
        {&BodyInputs::offset_m, &BodyInputs::heading_rad, &BodyInputs::yaw_rate_radps}) {
     assert_stops(Fault::kPoseMissing, [signal](DozerInputs& inputs) {
@@ -93,7 +93,7 @@ void where_it_is_has_to_be_known(void**) {
                [](DozerInputs& inputs) { inputs.body.heading_rad.value += 0.1; });
 }
 
-void an_offset_that_does_not_go_with_the_heading_is_seen(void**) {
+TEST(an_offset_that_does_not_go_with_the_heading_is_seen) {
   double offset_m = 0.0;
   assert_stops(Fault::kPoseDisagrees, [&offset_m](DozerInputs& inputs) {
     offset_m += 1.5e-3;
@@ -102,7 +102,7 @@ void an_offset_that_does_not_go_with_the_heading_is_seen(void**) {
 }
 
 /// On a track that turns 0.05 rad each metre.
-void a_yaw_rate_that_does_not_go_with_the_heading_is_seen(void**) {
+TEST(a_yaw_rate_that_does_not_go_with_the_heading_is_seen) {
   assert_stops(Fault::kPoseDisagrees,
                [](DozerInputs& inputs) { inputs.body.yaw_rate_radps.value += 0.3; });
   assert_stops(Fault::kPoseDisagrees,
@@ -110,7 +110,7 @@ void a_yaw_rate_that_does_not_go_with_the_heading_is_seen(void**) {
 }
 
 /// What leads it off the track, and is no jump.
-void an_edge_far_off_the_track_stops_it(void**) {
+TEST(an_edge_far_off_the_track_stops_it) {
   const CurvedDesign design(0.05);
   Grading grading(on(design));
   grading.run(50);
@@ -125,7 +125,7 @@ void an_edge_far_off_the_track_stops_it(void**) {
 }
 
 /// A straight design asks for none of it.
-void a_straight_track_needs_none_of_it(void**) {
+TEST(a_straight_track_needs_none_of_it) {
   const test::CrossDesign design(0.05, 0.03);
   DozerProfile profile = test::tilting_dozer().profile;
   profile.grade = design.grade;
@@ -137,15 +137,4 @@ void a_straight_track_needs_none_of_it(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_steers_along_the_curve),
-      cmocka_unit_test(the_outer_track_limits_the_speed),
-      cmocka_unit_test(where_it_is_has_to_be_known),
-      cmocka_unit_test(an_offset_that_does_not_go_with_the_heading_is_seen),
-      cmocka_unit_test(a_yaw_rate_that_does_not_go_with_the_heading_is_seen),
-      cmocka_unit_test(an_edge_far_off_the_track_stops_it),
-      cmocka_unit_test(a_straight_track_needs_none_of_it),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

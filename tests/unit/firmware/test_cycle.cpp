@@ -18,7 +18,7 @@ FaultSet only(Fault fault) {
   return faults;
 }
 
-void the_first_fault_is_named(void**) {
+TEST(the_first_fault_is_named) {
   assert_int_equal(first_of({}), Fault::kNone);
   assert_int_equal(first_of({Fault::kNone, Fault::kNone}), Fault::kNone);
   assert_int_equal(first_of({Fault::kNone, Fault::kBusOff, Fault::kStrokeMissing}), Fault::kBusOff);
@@ -30,7 +30,7 @@ ModeDecision decided(const CommonValid& valid, Fault fault, bool centred, bool s
   return decide_mode({}, cycle, valid, fault, centred, stop_requested);
 }
 
-void a_mode_that_changed_in_memory_is_a_fault(void**) {
+TEST(a_mode_that_changed_in_memory_is_a_fault) {
   CycleMemory memory;
   memory.mode = ModeState{EcuMode::kArmed, Fault::kNone, true};
   CommonValid valid;
@@ -51,7 +51,7 @@ void a_mode_that_changed_in_memory_is_a_fault(void**) {
   }
 }
 
-void each_part_of_the_request_has_its_source(void**) {
+TEST(each_part_of_the_request_has_its_source) {
   const ModeRequest nothing = decided({}, Fault::kNone, false, false).request;
   assert_int_equal(nothing.fault, Fault::kNone);
   assert_false(nothing.enable || nothing.automatic || nothing.has_task || nothing.centred ||
@@ -81,7 +81,7 @@ void each_part_of_the_request_has_its_source(void**) {
   assert_int_equal(decided({}, Fault::kBusOff, false, false).request.fault, Fault::kBusOff);
 }
 
-void a_refusal_of_the_gate_stops(void**) {
+TEST(a_refusal_of_the_gate_stops) {
   ModeDecision active{{}, {EcuMode::kActive, Fault::kNone}};
   take_refusal(Fault::kNone, active);
   assert_true(active.active());
@@ -92,7 +92,7 @@ void a_refusal_of_the_gate_stops(void**) {
 }
 
 /// Any fault by which the spools do not obey, latched or there now, in any mode.
-void a_spool_that_does_not_obey_cuts_the_pilot(void**) {
+TEST(a_spool_that_does_not_obey_cuts_the_pilot) {
   for (const EcuMode mode : kModes) {
     for (int code = 0; code < kFaultCount; ++code) {
       const auto fault = static_cast<Fault>(code);
@@ -104,7 +104,7 @@ void a_spool_that_does_not_obey_cuts_the_pilot(void**) {
 
 /// It lasts after the fault has gone where the machine was stopped by it, or by something else at
 /// the same time; a stuck spool's wherever it was seen.
-void the_cut_is_kept_after_its_cause(void**) {
+TEST(the_cut_is_kept_after_its_cause) {
   const auto kept = [](EcuMode mode, Fault latched, const FaultSet& faults) {
     return pilot({}, {mode, latched}, faults).state.kept_cut;
   };
@@ -118,7 +118,7 @@ void the_cut_is_kept_after_its_cause(void**) {
 }
 
 /// Nothing but arming again gives the pressure back.
-void only_arming_ends_the_cut(void**) {
+TEST(only_arming_ends_the_cut) {
   for (const EcuMode mode : kModes) {
     const PilotResult result = pilot({true, true}, {mode, Fault::kNone}, {});
     assert_int_equal(result.cut, !in_motion(mode));
@@ -128,7 +128,7 @@ void only_arming_ends_the_cut(void**) {
 }
 
 /// What an earlier process asked for is not known until this one has armed or asked itself.
-void the_pilot_is_known_from_arming_or_a_cut(void**) {
+TEST(the_pilot_is_known_from_arming_or_a_cut) {
   for (const EcuMode mode : kModes) {
     assert_int_equal(pilot({}, {mode, Fault::kNone}, {}).state.known, in_motion(mode));
     assert_true(pilot({false, true}, {mode, Fault::kNone}, {}).state.known);
@@ -149,7 +149,7 @@ MachineStatus describe(const ModeState& mode, const ModeRequest& request,
   return status;
 }
 
-void what_stopped_it_is_named_before_what_slows(void**) {
+TEST(what_stopped_it_is_named_before_what_slows) {
   CommonValid valid;
   valid.faults = only(Fault::kPressureMissing);
   valid.degraded = only(Fault::kPressureMissing);
@@ -165,7 +165,7 @@ void what_stopped_it_is_named_before_what_slows(void**) {
 }
 
 /// The request's fault is there now and blocks; the latched one was, and only says so.
-void what_blocks_is_what_is_there(void**) {
+TEST(what_blocks_is_what_is_there) {
   ModeRequest request;
   request.automatic = true;
   request.fault = Fault::kCycleStalled;
@@ -194,7 +194,7 @@ struct Clock {
 };
 
 /// Whatever the clock says: there is nothing that it could be late after.
-void the_first_cycle_is_well(void**) {
+TEST(the_first_cycle_is_well) {
   for (const TimeUs now_us : {TimeUs{0}, 1000 * kSecondUs, -1000 * kSecondUs}) {
     const TimeWatchResult seen = watch_time({}, now_us);
     assert_int_equal(seen.fault, Fault::kNone);
@@ -204,7 +204,7 @@ void the_first_cycle_is_well(void**) {
   }
 }
 
-void time_is_counted_from_the_last_cycle(void**) {
+TEST(time_is_counted_from_the_last_cycle) {
   Clock clock;
   assert_int_equal(clock.after(10 * kMillisecondUs), Fault::kNone);
   assert_near(clock.seen.elapsed_s, 0.010, 1e-15);
@@ -214,7 +214,7 @@ void time_is_counted_from_the_last_cycle(void**) {
 }
 
 /// What may change by so much a second gets no more than two cycles; a clock that ran back, none.
-void no_cycle_is_a_large_step(void**) {
+TEST(no_cycle_is_a_large_step) {
   Clock clock;
   static_cast<void>(clock.after(40 * kMillisecondUs));
   assert_near(clock.seen.elapsed_s, 0.040, 1e-15);
@@ -227,7 +227,7 @@ void no_cycle_is_a_large_step(void**) {
   assert_near(clock.seen.period_s, 0.0, 0.0);
 }
 
-void the_second_late_one_in_a_row_is_an_overrun(void**) {
+TEST(the_second_late_one_in_a_row_is_an_overrun) {
   constexpr TimeUs kLate = 15 * kMillisecondUs + 1;
   Clock clock;
   for (int round = 0; round < 3; ++round) {
@@ -256,7 +256,7 @@ int late_ones_until_overrun(TimeUs late_us, TimeUs between_us) {
   return 0;
 }
 
-void late_ones_fill_a_bucket(void**) {
+TEST(late_ones_fill_a_bucket) {
   constexpr TimeUs kMs = kMillisecondUs;
   assert_int_equal(late_ones_until_overrun(40 * kMs, 40 * kMs), 3);
   // 40 - 0; 40 - 1 - 5 + 40 = 74.
@@ -270,7 +270,7 @@ void late_ones_fill_a_bucket(void**) {
 }
 
 /// It holds 60 ms and no more, runs empty by a tenth of the time, and never below 0.
-void the_bucket_runs_empty(void**) {
+TEST(the_bucket_runs_empty) {
   TimeState state;
   state.has_stepped = true;
   state.late_us = 20 * kMillisecondUs;
@@ -290,7 +290,7 @@ void the_bucket_runs_empty(void**) {
   assert_int_equal(watch_time(state, -kElapsed - kSecondUs).state.late_us, 30 * kMillisecondUs);
 }
 
-void a_long_gap_is_a_stall(void**) {
+TEST(a_long_gap_is_a_stall) {
   Clock clock;
   assert_int_equal(clock.after(50 * kMillisecondUs), Fault::kNone);
   static_cast<void>(clock.after(10 * kMillisecondUs));
@@ -302,25 +302,4 @@ void a_long_gap_is_a_stall(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_first_fault_is_named),
-      cmocka_unit_test(a_mode_that_changed_in_memory_is_a_fault),
-      cmocka_unit_test(each_part_of_the_request_has_its_source),
-      cmocka_unit_test(a_refusal_of_the_gate_stops),
-      cmocka_unit_test(a_spool_that_does_not_obey_cuts_the_pilot),
-      cmocka_unit_test(the_cut_is_kept_after_its_cause),
-      cmocka_unit_test(only_arming_ends_the_cut),
-      cmocka_unit_test(the_pilot_is_known_from_arming_or_a_cut),
-      cmocka_unit_test(what_stopped_it_is_named_before_what_slows),
-      cmocka_unit_test(what_blocks_is_what_is_there),
-      cmocka_unit_test(the_first_cycle_is_well),
-      cmocka_unit_test(time_is_counted_from_the_last_cycle),
-      cmocka_unit_test(no_cycle_is_a_large_step),
-      cmocka_unit_test(the_second_late_one_in_a_row_is_an_overrun),
-      cmocka_unit_test(late_ones_fill_a_bucket),
-      cmocka_unit_test(the_bucket_runs_empty),
-      cmocka_unit_test(a_long_gap_is_a_stall),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

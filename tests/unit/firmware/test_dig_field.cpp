@@ -25,7 +25,7 @@ const DigField& field() {
   return dig_field;
 }
 
-void closest_point_is_the_nearest_of_the_path(void**) {
+TEST(closest_point_is_the_nearest_of_the_path) {
   const RoundedRectangle& path = field().path();
   constexpr int kPoints = test::rounds(4000, 500);
   const double half_apart_m = 0.5 * path.length_m() / kPoints;
@@ -45,7 +45,7 @@ void closest_point_is_the_nearest_of_the_path(void**) {
 }
 
 /// Equal shares are equal lengths, the tangent is the direction, and the path closes.
-void path_runs_at_constant_speed(void**) {
+TEST(path_runs_at_constant_speed) {
   const RoundedRectangle& path = field().path();
   constexpr int kPoints = 10000;
   const double step_m = path.length_m() / kPoints;
@@ -63,7 +63,7 @@ void path_runs_at_constant_speed(void**) {
 }
 
 /// Kim's section 5: 45 deg at 3.5 m, 120 deg at 6.5 m; the bottom is dug towards the machine.
-void path_is_the_papers(void**) {
+TEST(path_is_the_papers) {
   const RoundedRectangle& path = field().path();
   const PathPoint near_side = path.closest({3.0, -1.0});
   assert_near(near_side.position_m.x(), 3.5, 1e-12);
@@ -76,7 +76,7 @@ void path_is_the_papers(void**) {
   assert_near(bottom.tangent.x(), -1.0, 1e-12);
 }
 
-void contour_points_along_and_towards_the_path(void**) {
+TEST(contour_points_along_and_towards_the_path) {
   const double speed = profile().dig_speed_mps;
   const TipVelocity on_path = field().contour({6.5, -1.0, 2.094395});
   assert_near(on_path.linear_mps.x(), 0.0, 1e-12);
@@ -104,7 +104,7 @@ void contour_points_along_and_towards_the_path(void**) {
 
 /// An ideal machine, strokes moving just as the field wants: from any pose it must reach the path,
 /// never leave a cylinder's range, and then stay on the path.
-void every_pose_leads_to_the_path(void**) {
+TEST(every_pose_leads_to_the_path) {
   std::mt19937 random(7);
   constexpr double kPeriod_s = 0.02;
   for (int start = 0; start < test::rounds(200, 20); ++start) {
@@ -138,7 +138,7 @@ void every_pose_leads_to_the_path(void**) {
 }
 
 /// Far from the path the strokes move on a straight line.
-void the_approach_is_straight_in_stroke_space(void**) {
+TEST(the_approach_is_straight_in_stroke_space) {
   const KinematicState state = machine().state({0.1, 0.2, 1.0});
   const Eigen::Vector3d first = field().wanted(state, 1.0);
   const KinematicState later = machine().state(state.strokes_m + 0.5 * first);
@@ -147,7 +147,7 @@ void the_approach_is_straight_in_stroke_space(void**) {
   assert_true(first.cwiseAbs().maxCoeff() <= profile().control.approach_speed_mps + 1e-12);
 }
 
-void override_scales_without_turning(void**) {
+TEST(override_scales_without_turning) {
   const KinematicState state =
       machine().state(machine().strokes_from_pose({6.4, -0.5, 2.0}).strokes_m);
   const Eigen::Vector3d full = field().wanted(state, 1.0);
@@ -156,7 +156,7 @@ void override_scales_without_turning(void**) {
   assert_near(field().wanted(state, 0.0).norm(), 0.0, 0.0);
 }
 
-void a_path_out_of_reach_is_told(void**) {
+TEST(a_path_out_of_reach_is_told) {
   ExcavatorProfile far = profile();
   far.dig_path.x_min_m = 8.5;
   far.dig_path.x_max_m = 11.5;
@@ -165,7 +165,7 @@ void a_path_out_of_reach_is_told(void**) {
   assert_int_equal(field().reach(), ReachStatus::kOk);
 }
 
-void a_cylinder_near_its_end_slows_all_axes_alike(void**) {
+TEST(a_cylinder_near_its_end_slows_all_axes_alike) {
   const double most = profile().geometry.cylinder[kBoom].stroke_m;
   const double gain = profile().control.stroke_end_gain_ps;
   const DriveVector velocity(0.3, -0.1, 0.1, 0.0);
@@ -182,17 +182,4 @@ void a_cylinder_near_its_end_slows_all_axes_alike(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(closest_point_is_the_nearest_of_the_path),
-      cmocka_unit_test(path_runs_at_constant_speed),
-      cmocka_unit_test(path_is_the_papers),
-      cmocka_unit_test(contour_points_along_and_towards_the_path),
-      cmocka_unit_test(every_pose_leads_to_the_path),
-      cmocka_unit_test(the_approach_is_straight_in_stroke_space),
-      cmocka_unit_test(override_scales_without_turning),
-      cmocka_unit_test(a_path_out_of_reach_is_told),
-      cmocka_unit_test(a_cylinder_near_its_end_slows_all_axes_alike),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -30,7 +30,7 @@ double cut_through(const LayerPlan& plan, double height_m, CutState& state) {
 constexpr CutEnd kEven{0.7, 0.4};
 constexpr CutEnd kNothing{0.7, 0.0};
 
-void a_cut_fills_the_bucket(void**) {
+TEST(a_cut_fills_the_bucket) {
   const LayerPlan whole = plan();
   const CutState state = undug(whole);
   assert_near(state.cut.volume_m3, filling_m3(whole, state), 1e-4);
@@ -44,7 +44,7 @@ void a_cut_fills_the_bucket(void**) {
 }
 
 /// Where a bucket that is a little fuller each time saves a round, all of them are.
-void a_little_more_saves_a_round(void**) {
+TEST(a_little_more_saves_a_round) {
   LayerPlan whole = plan();
   whole.ground_from_m = 0.6;
   whole.ground_to_m = 0.6;
@@ -60,7 +60,7 @@ void a_little_more_saves_a_round(void**) {
 }
 
 /// What is carried away is weighed against what the edge has passed.
-void a_bucket_that_came_back_half_empty_takes_more(void**) {
+TEST(a_bucket_that_came_back_half_empty_takes_more) {
   const LayerPlan whole = plan();
   const auto filling_after = [&](double filled_m3, double weighed_m3) {
     CutState state = undug(whole);
@@ -79,7 +79,7 @@ void a_bucket_that_came_back_half_empty_takes_more(void**) {
 }
 
 /// What a last cut can take is not worth a bucket of its own.
-void a_thick_last_layer_is_the_last(void**) {
+TEST(a_thick_last_layer_is_the_last) {
   const LayerPlan whole = plan();
   const auto after = [&](double left_m) {
     CutState state = undug(whole);
@@ -93,7 +93,7 @@ void a_thick_last_layer_is_the_last(void**) {
 }
 
 /// A wall that was left at one end is taken with the rest, and no deeper than a cut may be.
-void what_stands_out_is_part_of_the_next_cut(void**) {
+TEST(what_stands_out_is_part_of_the_next_cut) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   static_cast<void>(pass(whole, 0.75, 0.0, state.cut.height_m, state));
@@ -105,7 +105,7 @@ void what_stands_out_is_part_of_the_next_cut(void**) {
 }
 
 /// Each cut is lower, the last is thin, and then all is met.
-void goes_down_cut_by_cut(void**) {
+TEST(goes_down_cut_by_cut) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   double last_m = 0.5;
@@ -129,7 +129,7 @@ void goes_down_cut_by_cut(void**) {
   assert_near(cut_m3, 0.5 * 2.0 * 1.0, 1e-5);
 }
 
-void only_what_was_passed_is_gone(void**) {
+TEST(only_what_was_passed_is_gone) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   const double height_m = state.cut.height_m;
@@ -140,7 +140,7 @@ void only_what_was_passed_is_gone(void**) {
 }
 
 /// One place that is a little rough is left, two are not; what is low already is passed over.
-void ends_where_next_to_nothing_is_left(void**) {
+TEST(ends_where_next_to_nothing_is_left) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   static_cast<void>(cut_through(whole, 0.0, state));
@@ -158,7 +158,7 @@ void ends_where_next_to_nothing_is_left(void**) {
   assert_false(state.met);
 }
 
-void strips_one_after_the_other(void**) {
+TEST(strips_one_after_the_other) {
   LayerPlan wide = plan();
   wide.strips = 3;
   CutState state = undug(wide);
@@ -174,7 +174,7 @@ void strips_one_after_the_other(void**) {
 }
 
 /// Soil that does not go is left, and the task comes to its end.
-void what_stays_up_is_left(void**) {
+TEST(what_stays_up_is_left) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   int cuts = 0;
@@ -186,7 +186,7 @@ void what_stays_up_is_left(void**) {
 }
 
 /// A cut that was stopped where it went in says nothing of the rest of its strip.
-void the_rest_of_a_strip_is_cut_all_the_same(void**) {
+TEST(the_rest_of_a_strip_is_cut_all_the_same) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   for (int n = 0; n < kTriesMost; ++n) {
@@ -204,7 +204,7 @@ void the_rest_of_a_strip_is_cut_all_the_same(void**) {
   }
 }
 
-void depth_follows_the_force(void**) {
+TEST(depth_follows_the_force) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   const double first_m = state.depth_m;
@@ -223,7 +223,7 @@ void depth_follows_the_force(void**) {
 }
 
 /// A cut that brings more than its edge has passed is made again, so often and no more.
-void soil_that_falls_in_is_swept_out(void**) {
+TEST(soil_that_falls_in_is_swept_out) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   weigh_cut(whole, whole.full_m3, state);
@@ -269,7 +269,7 @@ CutState dug(const LayerPlan& whole) {
 }
 
 /// A last cut that brings much has moved what stands beside it, whatever its edge has passed.
-void a_heavy_last_cut_is_swept_after(void**) {
+TEST(a_heavy_last_cut_is_swept_after) {
   const LayerPlan whole = plan();
   CutState state = undug(whole);
   while (!state.met) {
@@ -286,7 +286,7 @@ void a_heavy_last_cut_is_swept_after(void**) {
 }
 
 /// A sweep takes what nobody has seen: all that it brings has fallen in.
-void what_a_sweep_brings_has_fallen_in(void**) {
+TEST(what_a_sweep_brings_has_fallen_in) {
   const LayerPlan whole = plan();
   CutState state = dug(whole);
   weigh_cut(whole, 0.5 * whole.full_m3, state);
@@ -300,7 +300,7 @@ void what_a_sweep_brings_has_fallen_in(void**) {
 }
 
 /// Nearly a full bucket of it: the far wall falls in. It is cut back until it stands.
-void a_wall_that_stops_a_sweep_stands(void**) {
+TEST(a_wall_that_stops_a_sweep_stands) {
   const LayerPlan whole = plan();
   CutState state = dug(whole);
   weigh_cut(whole, 0.9 * whole.full_m3, state);
@@ -312,7 +312,7 @@ void a_wall_that_stops_a_sweep_stands(void**) {
 }
 
 /// A wall that lets soil in again and again is cut back too, however little it is at a time.
-void a_wall_that_crumbles_is_cut_back(void**) {
+TEST(a_wall_that_crumbles_is_cut_back) {
   const LayerPlan whole = plan();
   CutState state = dug(whole);
   for (int sweep = 0; sweep < 2; ++sweep) {
@@ -328,7 +328,7 @@ void a_wall_that_crumbles_is_cut_back(void**) {
 }
 
 /// Once all is through, each strip whose last cut brought more than its edge had passed.
-void every_strip_that_soil_fell_into_is_swept(void**) {
+TEST(every_strip_that_soil_fell_into_is_swept) {
   LayerPlan whole = plan();
   whole.strips = 3;
   CutState state = undug(whole);
@@ -354,7 +354,7 @@ void every_strip_that_soil_fell_into_is_swept(void**) {
 }
 
 /// Ground under the design is none to dig.
-void ground_below_its_design_is_met(void**) {
+TEST(ground_below_its_design_is_met) {
   LayerPlan low = plan();
   low.ground_from_m = -0.2;
   low.ground_to_m = -0.1;
@@ -363,27 +363,4 @@ void ground_below_its_design_is_met(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_bucket_that_came_back_half_empty_takes_more),
-      cmocka_unit_test(a_thick_last_layer_is_the_last),
-      cmocka_unit_test(a_cut_fills_the_bucket),
-      cmocka_unit_test(a_little_more_saves_a_round),
-      cmocka_unit_test(what_stands_out_is_part_of_the_next_cut),
-      cmocka_unit_test(goes_down_cut_by_cut),
-      cmocka_unit_test(only_what_was_passed_is_gone),
-      cmocka_unit_test(ends_where_next_to_nothing_is_left),
-      cmocka_unit_test(strips_one_after_the_other),
-      cmocka_unit_test(what_stays_up_is_left),
-      cmocka_unit_test(the_rest_of_a_strip_is_cut_all_the_same),
-      cmocka_unit_test(depth_follows_the_force),
-      cmocka_unit_test(soil_that_falls_in_is_swept_out),
-      cmocka_unit_test(a_heavy_last_cut_is_swept_after),
-      cmocka_unit_test(what_a_sweep_brings_has_fallen_in),
-      cmocka_unit_test(a_wall_that_stops_a_sweep_stands),
-      cmocka_unit_test(a_wall_that_crumbles_is_cut_back),
-      cmocka_unit_test(every_strip_that_soil_fell_into_is_swept),
-      cmocka_unit_test(ground_below_its_design_is_met),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -57,14 +57,14 @@ struct Bench {
   }
 };
 
-void oil_that_pushes_against_the_spool_stops(void**) {
+TEST(oil_that_pushes_against_the_spool_stops) {
   Bench bench;
   bench.move(0.0);
   bench.move(0.0);
   assert_true(bench.stops_after(4, -kStep_m));
 }
 
-void the_other_way_is_as_wrong(void**) {
+TEST(the_other_way_is_as_wrong) {
   Bench bench;
   bench.open(-0.5);
   bench.push(3e6);
@@ -73,7 +73,7 @@ void the_other_way_is_as_wrong(void**) {
   assert_true(bench.stops_after(4, kStep_m));
 }
 
-void what_goes_with_the_spool_makes_up_for_it(void**) {
+TEST(what_goes_with_the_spool_makes_up_for_it) {
   Bench bench;
   bench.move(0.0);
   bench.move(0.0);
@@ -84,7 +84,7 @@ void what_goes_with_the_spool_makes_up_for_it(void**) {
 }
 
 /// A drive that shakes has gone with its spool before it swings back; up to four bounds count.
-void what_it_went_before_is_set_off(void**) {
+TEST(what_it_went_before_is_set_off) {
   Bench bench;
   bench.move(0.0);
   assert_false(bench.stops_after(7, kStep_m));
@@ -95,7 +95,7 @@ void what_it_went_before_is_set_off(void**) {
   assert_true(farther.stops_after(18, -kStep_m));
 }
 
-void a_load_that_pushes_back_is_no_fault(void**) {
+TEST(a_load_that_pushes_back_is_no_fault) {
   Bench bench;
   bench.push(3e6);
   bench.move(0.0);
@@ -103,7 +103,7 @@ void a_load_that_pushes_back_is_no_fault(void**) {
   assert_false(bench.stops_after(50, -kStep_m));
 }
 
-void pressures_within_their_zeros_push_nowhere(void**) {
+TEST(pressures_within_their_zeros_push_nowhere) {
   Bench bench;
   bench.push(-1.2e6);
   bench.move(0.0);
@@ -113,14 +113,14 @@ void pressures_within_their_zeros_push_nowhere(void**) {
   assert_true(bench.stops_after(4, -kStep_m));
 }
 
-void a_drive_that_coasts_is_let_go_on_until_it_turns(void**) {
+TEST(a_drive_that_coasts_is_let_go_on_until_it_turns) {
   Bench bench;
   assert_false(bench.stops_after(50, -kStep_m));
   assert_false(bench.stops_after(1, kStep_m));
   assert_true(bench.stops_after(5, -kStep_m));
 }
 
-void a_spool_within_its_dead_band_leads_nowhere(void**) {
+TEST(a_spool_within_its_dead_band_leads_nowhere) {
   Bench bench;
   for (const double spool_ratio : {0.0, 0.1, -0.1, kEdge, -kEdge}) {
     bench.open(spool_ratio);
@@ -140,7 +140,7 @@ void a_spool_within_its_dead_band_leads_nowhere(void**) {
 }
 
 /// Closed in between, to its edge, it begins anew.
-void a_spool_that_closes_begins_anew(void**) {
+TEST(a_spool_that_closes_begins_anew) {
   for (const double closed : {0.1, kEdge}) {
     Bench bench;
     bench.move(0.0);
@@ -156,7 +156,7 @@ void a_spool_that_closes_begins_anew(void**) {
 }
 
 /// Where a dead band ends is known within 3 % of the travel, a motor's too.
-void a_spool_near_its_edge_may_be_closed(void**) {
+TEST(a_spool_near_its_edge_may_be_closed) {
   Bench bench;
   bench.open(kEdge + 0.029);
   bench.move(0.0);
@@ -174,7 +174,7 @@ void a_spool_near_its_edge_may_be_closed(void**) {
   assert_true(motor.stops_after(4, -kStep_m));
 }
 
-void another_side_begins_anew(void**) {
+TEST(another_side_begins_anew) {
   Bench bench;
   bench.move(0.0);
   bench.move(0.0);
@@ -185,7 +185,7 @@ void another_side_begins_anew(void**) {
   assert_false(bench.stops_after(50, -kStep_m));
 }
 
-void a_stroke_that_did_not_come_says_nothing(void**) {
+TEST(a_stroke_that_did_not_come_says_nothing) {
   Bench bench;
   bench.move(0.0);
   bench.move(0.0);
@@ -193,7 +193,7 @@ void a_stroke_that_did_not_come_says_nothing(void**) {
   assert_false(bench.stops_after(50, -kStep_m));
 }
 
-void without_its_pressures_a_drive_is_not_checked(void**) {
+TEST(without_its_pressures_a_drive_is_not_checked) {
   Bench bench;
   bench.move(0.0);
   bench.move(0.0);
@@ -204,7 +204,7 @@ void without_its_pressures_a_drive_is_not_checked(void**) {
   assert_false(bench.stops_after(50, -kStep_m));
 }
 
-void at_its_bound_it_is_sound(void**) {
+TEST(at_its_bound_it_is_sound) {
   Bench bench;
   bench.row.watch.wrong_m = 4.0 * kStep_m;
   bench.move(0.0);
@@ -212,7 +212,7 @@ void at_its_bound_it_is_sound(void**) {
   assert_true(bench.stops_after(5, -kStep_m));
 }
 
-void only_its_drives_are_watched(void**) {
+TEST(only_its_drives_are_watched) {
   const Bench bench;
   const DriveRow rows[] = {bench.row, bench.row};
   const ValidDrive seen[] = {bench.seen, bench.seen};
@@ -222,7 +222,7 @@ void only_its_drives_are_watched(void**) {
   assert_int_equal(states[1].side, 0);
 }
 
-void a_drive_without_a_bound_is_not_checked(void**) {
+TEST(a_drive_without_a_bound_is_not_checked) {
   Bench bench;
   bench.row.watch.wrong_m = 0.0;
   bench.move(0.0);
@@ -230,7 +230,7 @@ void a_drive_without_a_bound_is_not_checked(void**) {
 }
 
 /// Open for certain is another travel on each side.
-void each_side_has_its_own_dead_band(void**) {
+TEST(each_side_has_its_own_dead_band) {
   for (const double way : {1.0, -1.0}) {
     Bench bench;
     bench.row.answer = two_sides();
@@ -247,25 +247,4 @@ void each_side_has_its_own_dead_band(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(oil_that_pushes_against_the_spool_stops),
-      cmocka_unit_test(the_other_way_is_as_wrong),
-      cmocka_unit_test(what_goes_with_the_spool_makes_up_for_it),
-      cmocka_unit_test(what_it_went_before_is_set_off),
-      cmocka_unit_test(a_load_that_pushes_back_is_no_fault),
-      cmocka_unit_test(pressures_within_their_zeros_push_nowhere),
-      cmocka_unit_test(a_drive_that_coasts_is_let_go_on_until_it_turns),
-      cmocka_unit_test(a_spool_within_its_dead_band_leads_nowhere),
-      cmocka_unit_test(a_spool_that_closes_begins_anew),
-      cmocka_unit_test(a_spool_near_its_edge_may_be_closed),
-      cmocka_unit_test(another_side_begins_anew),
-      cmocka_unit_test(a_stroke_that_did_not_come_says_nothing),
-      cmocka_unit_test(without_its_pressures_a_drive_is_not_checked),
-      cmocka_unit_test(at_its_bound_it_is_sound),
-      cmocka_unit_test(only_its_drives_are_watched),
-      cmocka_unit_test(a_drive_without_a_bound_is_not_checked),
-      cmocka_unit_test(each_side_has_its_own_dead_band),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

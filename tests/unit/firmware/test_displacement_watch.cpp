@@ -55,7 +55,7 @@ Displacement settled(double ratio) {
 }
 
 /// Off by the tolerance for ever is well; by the next number it is not, either way.
-void disagreement_has_a_sharp_edge(void**) {
+TEST(disagreement_has_a_sharp_edge) {
   for (const double sign : {1.0, -1.0}) {
     Displacement one = settled(0.5);
     one.measured = 0.5 + sign * kTolerance;
@@ -66,7 +66,7 @@ void disagreement_has_a_sharp_edge(void**) {
 }
 
 /// It has the time to settle; a moment of agreement gives it as much again.
-void it_is_given_the_time_to_settle(void**) {
+TEST(it_is_given_the_time_to_settle) {
   Displacement one = settled(0.0);
   one.sent = 0.5;
   assert_false(one.disagrees(0.25));
@@ -80,7 +80,7 @@ void it_is_given_the_time_to_settle(void**) {
 }
 
 /// Passed by its command, it has the time once more: one that follows late is not off for good.
-void the_other_side_of_its_command_counts_anew(void**) {
+TEST(the_other_side_of_its_command_counts_anew) {
   Displacement one = settled(0.0);
   for (int n = 0; n < 20; ++n) {
     one.sent = n % 2 == 0 ? 0.5 : -0.5;
@@ -91,7 +91,7 @@ void the_other_side_of_its_command_counts_anew(void**) {
 }
 
 /// Away from its command by more than the tolerance: three cycles, no fewer, whichever way.
-void one_that_leaves_its_command_runs_away(void**) {
+TEST(one_that_leaves_its_command_runs_away) {
   for (const double at : {0.0, 0.5, -0.5}) {
     for (const double sign : {1.0, -1.0}) {
       Displacement one = settled(at);
@@ -107,7 +107,7 @@ void one_that_leaves_its_command_runs_away(void**) {
 }
 
 /// At 4 of full displacement per second from 0.25: within 80 ms, long before it disagrees.
-void it_is_found_soon(void**) {
+TEST(it_is_found_soon) {
   Displacement one = settled(0.25);
   int cycles = 0;
   do {
@@ -118,7 +118,7 @@ void it_is_found_soon(void**) {
 }
 
 /// One wrong frame, seen twice, is not enough.
-void it_must_be_away_in_a_row(void**) {
+TEST(it_must_be_away_in_a_row) {
   Displacement one = settled(0.0);
   for (int round = 0; round < 5; ++round) {
     one.measured = 1.0;
@@ -131,7 +131,7 @@ void it_must_be_away_in_a_row(void**) {
 }
 
 /// On its way between old commands and new ones, it is well, however late.
-void between_old_and_new_is_well(void**) {
+TEST(between_old_and_new_is_well) {
   for (const double sign : {1.0, -1.0}) {
     Displacement one = settled(-0.5 * sign);
     one.sent = 0.75 * sign;
@@ -143,7 +143,7 @@ void between_old_and_new_is_well(void**) {
 }
 
 /// Stuck where it was sent it disagrees, but has not run away; whatever leaves it is the command.
-void one_that_is_stuck_does_not_run_away(void**) {
+TEST(one_that_is_stuck_does_not_run_away) {
   Displacement one = settled(0.75);
   one.sent = 0.25;
   assert_int_equal(one.cycles_until_away(), -1);
@@ -158,7 +158,7 @@ void one_that_is_stuck_does_not_run_away(void**) {
 }
 
 /// Within the commands of late it goes where it likes, and stays stuck wherever that was.
-void one_that_followed_before_it_stuck_does_not_run_away(void**) {
+TEST(one_that_followed_before_it_stuck_does_not_run_away) {
   Displacement one = settled(0.25);
   one.sent = one.measured = 0.75;
   assert_false(one.runs_away());
@@ -167,7 +167,7 @@ void one_that_followed_before_it_stuck_does_not_run_away(void**) {
 }
 
 /// Stuck on the other side it drives the wrong way: as soon as no command of late was there.
-void the_wrong_side_is_away_without_moving(void**) {
+TEST(the_wrong_side_is_away_without_moving) {
   for (const double sign : {1.0, -1.0}) {
     Displacement one = settled(-0.5 * sign);
     one.sent = 0.0;
@@ -181,7 +181,7 @@ void the_wrong_side_is_away_without_moving(void**) {
 }
 
 /// It goes the wrong way from the start.
-void the_wrong_direction_is_away(void**) {
+TEST(the_wrong_direction_is_away) {
   Displacement one = settled(0.0);
   one.sent = 0.5;
   one.measured = -0.25;
@@ -189,7 +189,7 @@ void the_wrong_direction_is_away(void**) {
 }
 
 /// After motion what stays where it was drives the machine.
-void one_that_does_not_return_runs_away(void**) {
+TEST(one_that_does_not_return_runs_away) {
   Displacement one = settled(0.5);
   one.sent = 0.0;
   one.task = DisplacementTask::kReturn;
@@ -202,7 +202,7 @@ void one_that_does_not_return_runs_away(void**) {
 }
 
 /// Not judged, nothing is asked and nothing remembered but what was sent.
-void one_that_is_not_judged_begins_afresh(void**) {
+TEST(one_that_is_not_judged_begins_afresh) {
   Displacement one = settled(0.0);
   one.measured = 0.75;
   assert_false(one.disagrees(0.5) || one.runs_away());
@@ -228,7 +228,7 @@ void one_that_is_not_judged_begins_afresh(void**) {
 }
 
 /// A motor's neutral is 1: from the first cycle on nothing else was commanded.
-void the_history_begins_at_neutral(void**) {
+TEST(the_history_begins_at_neutral) {
   Displacement motor;
   motor.state = DisplacementState(1.0);
   motor.sent = motor.measured = 1.0;
@@ -239,22 +239,4 @@ void the_history_begins_at_neutral(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(disagreement_has_a_sharp_edge),
-      cmocka_unit_test(it_is_given_the_time_to_settle),
-      cmocka_unit_test(the_other_side_of_its_command_counts_anew),
-      cmocka_unit_test(one_that_leaves_its_command_runs_away),
-      cmocka_unit_test(it_is_found_soon),
-      cmocka_unit_test(it_must_be_away_in_a_row),
-      cmocka_unit_test(between_old_and_new_is_well),
-      cmocka_unit_test(one_that_is_stuck_does_not_run_away),
-      cmocka_unit_test(one_that_followed_before_it_stuck_does_not_run_away),
-      cmocka_unit_test(the_wrong_side_is_away_without_moving),
-      cmocka_unit_test(the_wrong_direction_is_away),
-      cmocka_unit_test(one_that_does_not_return_runs_away),
-      cmocka_unit_test(one_that_is_not_judged_begins_afresh),
-      cmocka_unit_test(the_history_begins_at_neutral),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -17,7 +17,7 @@ using test::Grading;
 
 using Change = std::function<void(DozerInputs&)>;
 
-void before_anything_is_received_it_is_neutral_and_braked(void**) {
+TEST(before_anything_is_received_it_is_neutral_and_braked) {
   const DozerSetup setup(test::dozer().profile);
   DozerController controller(setup);
   const DozerOutputs outputs = controller.step(DozerInputs(), kSecondUs);
@@ -27,7 +27,7 @@ void before_anything_is_received_it_is_neutral_and_braked(void**) {
   assert_true(outputs.status.why_not_armed != 0);
 }
 
-void it_gets_faster_at_its_rate_and_lets_the_brake_go(void**) {
+TEST(it_gets_faster_at_its_rate_and_lets_the_brake_go) {
   Grading grading;
   assert_false(grading.outputs.brake);
   grading.run(130);
@@ -39,7 +39,7 @@ void it_gets_faster_at_its_rate_and_lets_the_brake_go(void**) {
 }
 
 /// The machine of the test stays level: only the edge's way into the trench asks for flow.
-void before_the_trench_it_slows_down_and_its_blade_follows(void**) {
+TEST(before_the_trench_it_slows_down_and_its_blade_follows) {
   Grading grading;
   double slowest_mps = 9.0;
   while (grading.position_m < 2.5) {
@@ -68,12 +68,12 @@ double slowest_into_the_trench_mps(double share) {
   return slowest_mps;
 }
 
-void what_its_pump_does_not_give_is_not_planned_with(void**) {
+TEST(what_its_pump_does_not_give_is_not_planned_with) {
   const double whole_mps = slowest_into_the_trench_mps(1.0);
   assert_near(slowest_into_the_trench_mps(0.8), 0.8 * whole_mps, 0.05 * whole_mps);
 }
 
-void the_operators_share_of_the_speed_is_kept(void**) {
+TEST(the_operators_share_of_the_speed_is_kept) {
   Grading grading;
   for (int n = 0; n < 300; ++n) {
     DozerInputs inputs = grading.next();
@@ -84,7 +84,7 @@ void the_operators_share_of_the_speed_is_kept(void**) {
   assert_near(grading.outputs.status.lambda, 0.25, 1e-9);
 }
 
-void without_a_task_it_stands(void**) {
+TEST(without_a_task_it_stands) {
   Grading grading;
   grading.run(100);
   grading.step(grading.at_rest(true));
@@ -92,7 +92,7 @@ void without_a_task_it_stands(void**) {
   assert_neutral(grading.outputs);
 }
 
-void released_it_is_neutral_in_the_same_cycle(void**) {
+TEST(released_it_is_neutral_in_the_same_cycle) {
   Grading grading;
   grading.run(100);
   DozerInputs inputs = grading.next();
@@ -127,7 +127,7 @@ void assert_stops(const char* what, Fault fault, const Change& change, int cycle
   assert_int_equal(grading.outputs.status.mode, EcuMode::kArmed);
 }
 
-void what_stops_it_stops_it(void**) {
+TEST(what_stops_it_stops_it) {
   constexpr TimeUs kOld = 60 * kMillisecondUs;
   const struct {
     const char* what;
@@ -166,7 +166,7 @@ void what_stops_it_stops_it(void**) {
   }
 }
 
-void a_runaway_asks_for_the_brake_at_once(void**) {
+TEST(a_runaway_asks_for_the_brake_at_once) {
   Grading grading;
   grading.run(100);
   for (int n = 0; n < 30 && grading.outputs.enable; ++n) {
@@ -178,7 +178,7 @@ void a_runaway_asks_for_the_brake_at_once(void**) {
   assert_true(grading.outputs.brake);
 }
 
-void a_lost_engine_speed_slows_it(void**) {
+TEST(a_lost_engine_speed_slows_it) {
   Grading grading;
   for (int n = 0; n < 400; ++n) {
     DozerInputs inputs = grading.next();
@@ -197,7 +197,7 @@ void a_lost_engine_speed_slows_it(void**) {
 }
 
 /// A track shown much too slow: it goes on slower, and that track is not driven after its sensor.
-void a_wrong_track_speed_is_not_followed(void**) {
+TEST(a_wrong_track_speed_is_not_followed) {
   Grading grading;
   for (int n = 0; n < 600; ++n) {
     DozerInputs inputs = grading.next();
@@ -234,7 +234,7 @@ void assert_every_bit_counts(Object& (*object)(Grading&)) {
   fail_msg("no bit of it was missed");
 }
 
-void a_flipped_bit_stops_it(void**) {
+TEST(a_flipped_bit_stops_it) {
   using Access = DozerMemoryAccess;
   assert_every_bit_counts<Guarded<double>>(
       [](Grading& g) -> Guarded<double>& { return Access::speed(g.controller); });
@@ -247,7 +247,7 @@ void a_flipped_bit_stops_it(void**) {
 }
 
 /// v_c is gone on with from its guarded copy alone.
-void an_unguarded_speed_moves_nothing(void**) {
+TEST(an_unguarded_speed_moves_nothing) {
   Grading sound;
   sound.run(100);
   Grading flipped = sound;
@@ -257,7 +257,7 @@ void an_unguarded_speed_moves_nothing(void**) {
   assert_near(flipped.outputs.status.wanted_speed_mps, sound.outputs.status.wanted_speed_mps, 0.0);
 }
 
-void cycles_that_come_late_stop_it(void**) {
+TEST(cycles_that_come_late_stop_it) {
   Grading grading;
   grading.now_us += 6 * kMillisecondUs;
   grading.step(grading.next());
@@ -268,7 +268,7 @@ void cycles_that_come_late_stop_it(void**) {
   assert_int_equal(grading.outputs.status.fault, Fault::kCycleOverrun);
 }
 
-void told_to_end_it_is_neutral_for_good(void**) {
+TEST(told_to_end_it_is_neutral_for_good) {
   Grading grading;
   DozerInputs last = grading.next();
   last.link.stop_requested = true;
@@ -278,7 +278,7 @@ void told_to_end_it_is_neutral_for_good(void**) {
 }
 
 /// Where a blade cannot reach the design its end says so.
-void a_design_out_of_reach_ends_at_the_stroke(void**) {
+TEST(a_design_out_of_reach_ends_at_the_stroke) {
   DozerProfile deep = test::dozer().profile;
   deep.grade = test::level(-1.0);
   Grading grading(deep);
@@ -293,24 +293,4 @@ void a_design_out_of_reach_ends_at_the_stroke(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(before_anything_is_received_it_is_neutral_and_braked),
-      cmocka_unit_test(it_gets_faster_at_its_rate_and_lets_the_brake_go),
-      cmocka_unit_test(before_the_trench_it_slows_down_and_its_blade_follows),
-      cmocka_unit_test(what_its_pump_does_not_give_is_not_planned_with),
-      cmocka_unit_test(the_operators_share_of_the_speed_is_kept),
-      cmocka_unit_test(without_a_task_it_stands),
-      cmocka_unit_test(released_it_is_neutral_in_the_same_cycle),
-      cmocka_unit_test(what_stops_it_stops_it),
-      cmocka_unit_test(a_runaway_asks_for_the_brake_at_once),
-      cmocka_unit_test(a_lost_engine_speed_slows_it),
-      cmocka_unit_test(a_wrong_track_speed_is_not_followed),
-      cmocka_unit_test(a_flipped_bit_stops_it),
-      cmocka_unit_test(an_unguarded_speed_moves_nothing),
-      cmocka_unit_test(cycles_that_come_late_stop_it),
-      cmocka_unit_test(told_to_end_it_is_neutral_for_good),
-      cmocka_unit_test(a_design_out_of_reach_ends_at_the_stroke),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

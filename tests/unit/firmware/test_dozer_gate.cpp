@@ -64,7 +64,7 @@ void assert_neutral(const Gated& result) {
   }
 }
 
-void what_is_wanted_goes_through(void**) {
+TEST(what_is_wanted_goes_through) {
   const Gated result = let({{-0.5}, {0.75, -0.25}, {1.0, 0.5}}, {}, kLong_s);
   assert_true(result.enable);
   assert_int_equal(result.fault, Fault::kNone);
@@ -78,7 +78,7 @@ void what_is_wanted_goes_through(void**) {
   assert_near(result.state.motor_ratio[kRight].value(), 0.5, 0.0);
 }
 
-void what_is_out_of_range_is_clamped(void**) {
+TEST(what_is_out_of_range_is_clamped) {
   for (const double sign : {1.0, -1.0}) {
     const Gated result = let({{sign * 9.0}, {sign * 9.0, -sign * 9.0}, {-9.0, 9.0}}, {}, kLong_s);
     assert_near(result.duty_ratio[0], sign, 1e-12);
@@ -89,7 +89,7 @@ void what_is_out_of_range_is_clamped(void**) {
   }
 }
 
-void a_spool_hardly_open_stays_neutral(void**) {
+TEST(a_spool_hardly_open_stays_neutral) {
   const double threshold = profile().control.spool_threshold;
   for (const double sign : {1.0, -1.0}) {
     const double edge = sign * threshold;
@@ -98,7 +98,7 @@ void a_spool_hardly_open_stays_neutral(void**) {
   }
 }
 
-void the_way_from_neutral_is_limited(void**) {
+TEST(the_way_from_neutral_is_limited) {
   for (const double sign : {1.0, -1.0}) {
     const DozerCommand all{{sign}, {sign, sign}, {0.25, 0.25}};
     DozerGateState last;
@@ -121,7 +121,7 @@ void the_way_from_neutral_is_limited(void**) {
 }
 
 /// Towards neutral everything goes at once; a reversal begins there.
-void the_way_back_is_never_delayed(void**) {
+TEST(the_way_back_is_never_delayed) {
   for (const double sign : {1.0, -1.0}) {
     const DozerGateState fast = at(sign, sign, 0.25);
     const Gated slower = let({{0.5 * sign}, {0.0, 0.5 * sign}, {0.5, 1.0}}, fast, kStep_s);
@@ -139,14 +139,14 @@ void the_way_back_is_never_delayed(void**) {
 }
 
 /// Neutral knows no rate: not active stops everything in the same cycle.
-void not_active_is_neutral_at_once(void**) {
+TEST(not_active_is_neutral_at_once) {
   const Gated result =
       gate(profile(), at(1.0, -1.0, 0.25), false, {{1.0}, {1.0, 1.0}, {0.25, 0.25}}, kStep_s);
   assert_int_equal(result.fault, Fault::kNone);
   assert_neutral(result);
 }
 
-void what_is_no_number_is_refused(void**) {
+TEST(what_is_no_number_is_refused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, infinity, -infinity}) {
@@ -164,7 +164,7 @@ void what_is_no_number_is_refused(void**) {
 }
 
 /// Each rate limit by itself; and the time, of which only one that is no number is none.
-void a_limit_that_is_no_number_is_refused(void**) {
+TEST(a_limit_that_is_no_number_is_refused) {
   const double infinity = std::numeric_limits<double>::infinity();
   double* (*const rates[])(DozerProfile&) = {
       [](DozerProfile& wild) { return &wild.control.spool_rate_ps; },
@@ -186,7 +186,7 @@ void a_limit_that_is_no_number_is_refused(void**) {
 }
 
 /// Whichever bit of whichever stored setpoint: refused in this cycle, and nothing of it is kept.
-void a_flipped_bit_is_refused(void**) {
+TEST(a_flipped_bit_is_refused) {
   for (std::size_t bit = 0; bit < 8 * sizeof(DozerGateState); ++bit) {
     DozerGateState open = at(0.5, -0.5, 0.5);
     test::flip_bit(open, bit);
@@ -197,7 +197,7 @@ void a_flipped_bit_is_refused(void**) {
 }
 
 /// Neutral needs nothing of what is stored.
-void a_flipped_bit_does_not_matter_at_rest(void**) {
+TEST(a_flipped_bit_does_not_matter_at_rest) {
   DozerGateState open;
   test::flip_bit(open, 3);
   const Gated result = gate(profile(), open, false, {}, kStep_s);
@@ -207,18 +207,4 @@ void a_flipped_bit_does_not_matter_at_rest(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_wanted_goes_through),
-      cmocka_unit_test(what_is_out_of_range_is_clamped),
-      cmocka_unit_test(a_spool_hardly_open_stays_neutral),
-      cmocka_unit_test(the_way_from_neutral_is_limited),
-      cmocka_unit_test(the_way_back_is_never_delayed),
-      cmocka_unit_test(not_active_is_neutral_at_once),
-      cmocka_unit_test(what_is_no_number_is_refused),
-      cmocka_unit_test(a_limit_that_is_no_number_is_refused),
-      cmocka_unit_test(a_flipped_bit_is_refused),
-      cmocka_unit_test(a_flipped_bit_does_not_matter_at_rest),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -10,7 +10,7 @@ using namespace graben::test::of_dozer;
 
 /// At 1 m/s 0.475 m/s for 0.3 s, either way; a moment of agreement gives as much again. Both tracks
 /// and the body alike: losses that the profile has wrong.
-void tracks_off_their_displacements_slow(void**) {
+TEST(tracks_off_their_displacements_slow) {
   for (const double sign : {1.0, -1.0}) {
     Machine machine;
     machine.run_at(1.0 + sign * 0.474);
@@ -30,7 +30,7 @@ void tracks_off_their_displacements_slow(void**) {
 
 /// Standing, the tolerance itself is well and the next number is not; backwards its share counts as
 /// forwards.
-void the_tracks_tolerance_grows_with_speed(void**) {
+TEST(the_tracks_tolerance_grows_with_speed) {
   for (const double sign : {1.0, -1.0}) {
     Machine machine;
     machine.drive(0.0, 1.0);
@@ -49,7 +49,7 @@ void the_tracks_tolerance_grows_with_speed(void**) {
 
 /// What it ought to be follows engine and both displacements; without the engine's speed there is
 /// nothing to compare with.
-void a_tracks_speed_is_that_of_its_displacements(void**) {
+TEST(a_tracks_speed_is_that_of_its_displacements) {
   Machine fast;
   fast.drive(1.0, 0.5);  // 4 m/s
   assert_well(fast.run(50));
@@ -65,7 +65,7 @@ void a_tracks_speed_is_that_of_its_displacements(void**) {
 
 /// Neither its displacements nor the body say what the sensor does: not used from this cycle on,
 /// told after 0.1 s. At 1 m/s 0.25 m/s beside the one and 0.35 beside the other.
-void a_sensor_is_outvoted(void**) {
+TEST(a_sensor_is_outvoted) {
   for (unsigned track = 0; track < kTrackCount; ++track) {
     for (const double off_mps : {-1.0, -0.351, 0.351, 2.0}) {
       Machine machine;
@@ -82,7 +82,7 @@ void a_sensor_is_outvoted(void**) {
 }
 
 /// One that agrees with it is enough.
-void one_vote_for_a_sensor_is_enough(void**) {
+TEST(one_vote_for_a_sensor_is_enough) {
   for (const double sign : {1.0, -1.0}) {
     Machine like_body;
     like_body.run_at(1.0 + sign * 0.349);
@@ -106,7 +106,7 @@ void one_vote_for_a_sensor_is_enough(void**) {
 
 /// One side further from its displacements than the other, though each is within its tolerance: at
 /// 1 m/s 0.15 m/s for 0.2 s.
-void sides_that_are_apart_slow(void**) {
+TEST(sides_that_are_apart_slow) {
   for (unsigned track = 0; track < kTrackCount; ++track) {
     for (const double sign : {1.0, -1.0}) {
       Machine machine;
@@ -120,7 +120,7 @@ void sides_that_are_apart_slow(void**) {
 }
 
 /// Nothing of it is kept over a time in which it is not looked at.
-void votes_are_counted_in_motion_only(void**) {
+TEST(votes_are_counted_in_motion_only) {
   Machine machine;
   machine.inputs.track_speed_mps[kLeft] = 0.0;
   machine.step();
@@ -131,7 +131,7 @@ void votes_are_counted_in_motion_only(void**) {
   assert_well(machine.step());
 }
 
-void a_pose_that_does_not_fit_stops(void**) {
+TEST(a_pose_that_does_not_fit_stops) {
   Machine machine;
   machine.run(3);
   machine.frozen = true;
@@ -149,7 +149,7 @@ void a_pose_that_does_not_fit_stops(void**) {
 }
 
 /// Without an engine speed only the tracks speak of the body's speed.
-void the_engines_speed_may_be_missing(void**) {
+TEST(the_engines_speed_may_be_missing) {
   Machine machine;
   machine.inputs.faults.add(Fault::kEngineSpeedMissing);
   machine.inputs.engine_radps = 4.0;
@@ -163,17 +163,4 @@ void the_engines_speed_may_be_missing(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(tracks_off_their_displacements_slow),
-      cmocka_unit_test(the_tracks_tolerance_grows_with_speed),
-      cmocka_unit_test(a_tracks_speed_is_that_of_its_displacements),
-      cmocka_unit_test(a_sensor_is_outvoted),
-      cmocka_unit_test(one_vote_for_a_sensor_is_enough),
-      cmocka_unit_test(sides_that_are_apart_slow),
-      cmocka_unit_test(votes_are_counted_in_motion_only),
-      cmocka_unit_test(a_pose_that_does_not_fit_stops),
-      cmocka_unit_test(the_engines_speed_may_be_missing),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -36,7 +36,7 @@ void assert_stops(Fault fault, const DozerInputs& inputs) {
   }
 }
 
-void complete_inputs_become_a_state(void**) {
+TEST(complete_inputs_become_a_state) {
   DozerInputs inputs = complete_dozer_inputs(kNow);
   inputs.blade_spool_ratio.value = 0.375;
   inputs.valve_enabled.value = true;
@@ -92,7 +92,7 @@ constexpr Row kRequired[] = {
 };
 
 /// Every required signal, each in every state that is not usable, stops by its own fault.
-void each_signal_is_required(void**) {
+TEST(each_signal_is_required) {
   for (const Row& row : kRequired) {
     for (const Validity validity :
          {Validity::kNotReceived, Validity::kNotAvailable, Validity::kOutOfRange}) {
@@ -113,7 +113,7 @@ void each_signal_is_required(void**) {
 
 /// 'Error' stops too and is named beside the loss; 'not available' is a loss only. The operator's
 /// lever is no sensor.
-void a_sensors_own_error_is_named(void**) {
+TEST(a_sensors_own_error_is_named) {
   for (const Row& row : kRequired) {
     DozerInputs inputs = complete_dozer_inputs(kNow);
     row.signal(inputs)->validity = Validity::kError;
@@ -127,7 +127,7 @@ void a_sensors_own_error_is_named(void**) {
   }
 }
 
-void the_rest_is_required_too(void**) {
+TEST(the_rest_is_required_too) {
   DozerInputs echo = complete_dozer_inputs(kNow);
   echo.valve_enabled.stamp_us = kStale;
   echo.valve_enabled.value = true;
@@ -145,7 +145,7 @@ void the_rest_is_required_too(void**) {
 }
 
 /// Without its speed the engine is reckoned with at its slowest: less flow, less speed.
-void a_lost_engine_speed_slows_to_idle(void**) {
+TEST(a_lost_engine_speed_slows_to_idle) {
   for (const bool mad : kEither) {
     DozerInputs inputs = complete_dozer_inputs(kNow);
     if (mad) {
@@ -164,7 +164,7 @@ void a_lost_engine_speed_slows_to_idle(void**) {
   assert_true(judged(fast).faults.empty());
 }
 
-void a_stroke_beyond_the_blades_reach_is_implausible(void**) {
+TEST(a_stroke_beyond_the_blades_reach_is_implausible) {
   const double most_m = BladeKinematics(profile().blade).stroke_max_m();
   assert_near(most_m, std::sqrt(3.0) - 1.0, 1e-12);
   DozerInputs inputs = complete_dozer_inputs(kNow);
@@ -179,7 +179,7 @@ void a_stroke_beyond_the_blades_reach_is_implausible(void**) {
 }
 
 /// Steeper than any slope that a dozer works on: it stops, however it came to that.
-void a_body_on_its_side_cannot_be(void**) {
+TEST(a_body_on_its_side_cannot_be) {
   for (const double sign : {1.0, -1.0}) {
     DozerInputs inputs = complete_dozer_inputs(kNow);
     inputs.body.pitch_rad.value = sign * kMostPitch_rad;
@@ -190,7 +190,7 @@ void a_body_on_its_side_cannot_be(void**) {
 }
 
 /// The blade's load is told by it; without it no load is known, and nothing stops.
-void a_line_s_pressure_may_be_missing(void**) {
+TEST(a_line_s_pressure_may_be_missing) {
   DozerInputs inputs = complete_dozer_inputs(kNow);
   inputs.track[kLeft].line_pressure_pa = inputs.track[kLeft].speed_mps;
   inputs.track[kLeft].line_pressure_pa.value = 12e6;
@@ -230,7 +230,7 @@ DozerInputs tilted_inputs() {
   return inputs;
 }
 
-void a_blade_that_tilts_has_its_own_signals(void**) {
+TEST(a_blade_that_tilts_has_its_own_signals) {
   const test::ValidatedDozer valid = test::validate(tilted_inputs(), tilting(), {}, true, kNow);
   assert_true(valid.faults.empty());
   assert_near(valid.tilt().stroke_m, 0.125, 0.0);
@@ -284,7 +284,7 @@ DozerInputs curving_inputs() {
   return inputs;
 }
 
-void a_track_that_bends_asks_where_the_body_is_beside_it(void**) {
+TEST(a_track_that_bends_asks_where_the_body_is_beside_it) {
   const test::ValidatedDozer valid = test::validate(curving_inputs(), curving(), {}, true, kNow);
   assert_true(valid.faults.empty());
   assert_near(valid.course.offset_m, 0.25, 0.0);
@@ -313,18 +313,4 @@ void a_track_that_bends_asks_where_the_body_is_beside_it(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(complete_inputs_become_a_state),
-      cmocka_unit_test(each_signal_is_required),
-      cmocka_unit_test(a_sensors_own_error_is_named),
-      cmocka_unit_test(the_rest_is_required_too),
-      cmocka_unit_test(a_lost_engine_speed_slows_to_idle),
-      cmocka_unit_test(a_stroke_beyond_the_blades_reach_is_implausible),
-      cmocka_unit_test(a_body_on_its_side_cannot_be),
-      cmocka_unit_test(a_line_s_pressure_may_be_missing),
-      cmocka_unit_test(a_blade_that_tilts_has_its_own_signals),
-      cmocka_unit_test(a_track_that_bends_asks_where_the_body_is_beside_it),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

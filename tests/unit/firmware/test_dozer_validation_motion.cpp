@@ -89,7 +89,7 @@ struct Machine {
 
 /// Where the rate takes it, and so far beside, is believed; further is not: both ways, and by as
 /// much more after a frame was lost.
-void a_jump_is_not_believed(void**) {
+TEST(a_jump_is_not_believed) {
   for (const Followed& one : kFollowed) {
     for (const double sign : {1.0, -1.0}) {
       for (const int cycles : {1, 2, 3}) {
@@ -114,7 +114,7 @@ void a_jump_is_not_believed(void**) {
 }
 
 /// With a coordinate its rate is not believed either.
-void the_rate_of_a_jump_is_not_believed(void**) {
+TEST(the_rate_of_a_jump_is_not_believed) {
   for (const Followed& one : kFollowed) {
     if (one.rate == nullptr) {
       continue;
@@ -132,7 +132,7 @@ void the_rate_of_a_jump_is_not_believed(void**) {
 }
 
 /// Back where it was: over, as if nothing had been.
-void a_jump_and_back_is_bridged(void**) {
+TEST(a_jump_and_back_is_bridged) {
   for (const Followed& one : kFollowed) {
     Machine machine(one);
     for (int n = 0; n < 3; ++n) {
@@ -145,7 +145,7 @@ void a_jump_and_back_is_bridged(void**) {
 
 /// It stays: the last that was believed grows old, and the machine stops. Before that the jump is
 /// never taken for the truth. Stopped, the operator may begin again from where the sensor says.
-void a_jump_that_stays_stops(void**) {
+TEST(a_jump_that_stays_stops) {
   for (const Followed& one : kFollowed) {
     Machine machine(one);
     for (int n = 1; n <= 4; ++n) {
@@ -164,7 +164,7 @@ void a_jump_that_stays_stops(void**) {
 }
 
 /// A sensor that dies after its jump is missing at once.
-void a_jump_to_nothing_is_a_loss(void**) {
+TEST(a_jump_to_nothing_is_a_loss) {
   for (const Followed& one : kFollowed) {
     Machine machine(one);
     machine.frame(Machine::far());
@@ -174,7 +174,7 @@ void a_jump_to_nothing_is_a_loss(void**) {
 }
 
 /// A coordinate whose rate is gone is held against its last value, and the loss stops anyway.
-void without_a_rate_nothing_is_expected(void**) {
+TEST(without_a_rate_nothing_is_expected) {
   for (const Followed& one : kFollowed) {
     if (one.rate == nullptr) {
       continue;
@@ -192,7 +192,7 @@ void without_a_rate_nothing_is_expected(void**) {
 }
 
 /// One jump that is bridged excuses neither the other nor anything else.
-void a_jump_hides_nothing(void**) {
+TEST(a_jump_hides_nothing) {
   for (const Followed& one : kFollowed) {
     const Machine before(one);
     DozerInputs inputs = test::complete_dozer_inputs(before.now_us);
@@ -206,7 +206,7 @@ void a_jump_hides_nothing(void**) {
 }
 
 /// On its side it stops, though the way there was a jump.
-void a_jump_onto_its_side_is_bridged_only_as_a_jump(void**) {
+TEST(a_jump_onto_its_side_is_bridged_only_as_a_jump) {
   Machine machine(kFollowed[3]);
   assert_true(machine.frame(1.0).degraded.has(Fault::kPoseImplausible));
   assert_int_equal(machine.valid.fault, Fault::kNone);
@@ -223,7 +223,7 @@ void a_jump_onto_its_side_is_bridged_only_as_a_jump(void**) {
 }
 
 /// Moved by hand, it may be anywhere at any time.
-void outside_motion_nothing_jumps(void**) {
+TEST(outside_motion_nothing_jumps) {
   for (const Followed& one : kFollowed) {
     Machine machine(one);
     assert_true(machine.frame(Machine::far(), !kMoving).faults.empty());
@@ -233,17 +233,4 @@ void outside_motion_nothing_jumps(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_jump_is_not_believed),
-      cmocka_unit_test(the_rate_of_a_jump_is_not_believed),
-      cmocka_unit_test(a_jump_and_back_is_bridged),
-      cmocka_unit_test(a_jump_that_stays_stops),
-      cmocka_unit_test(a_jump_to_nothing_is_a_loss),
-      cmocka_unit_test(without_a_rate_nothing_is_expected),
-      cmocka_unit_test(a_jump_hides_nothing),
-      cmocka_unit_test(a_jump_onto_its_side_is_bridged_only_as_a_jump),
-      cmocka_unit_test(outside_motion_nothing_jumps),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

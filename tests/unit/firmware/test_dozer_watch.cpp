@@ -8,7 +8,7 @@ namespace {
 using namespace graben;
 using namespace graben::test::of_dozer;
 
-void a_machine_that_obeys_is_left_alone(void**) {
+TEST(a_machine_that_obeys_is_left_alone) {
   Machine machine;
   for (int n = 0; n < 200; ++n) {
     machine.drive(0.5 * std::sin(0.02 * n), 1.0);
@@ -17,7 +17,7 @@ void a_machine_that_obeys_is_left_alone(void**) {
   }
 }
 
-void the_spool_and_its_echo_stop(void**) {
+TEST(the_spool_and_its_echo_stop) {
   Machine stuck;
   stuck.run(kSpoolUnderWay);
   stuck.inputs.drive[0].spool_ratio = kOpen;
@@ -41,7 +41,7 @@ void the_spool_and_its_echo_stop(void**) {
 }
 
 /// What is not received is not judged, and counted afresh when it is.
-void a_spool_that_is_not_seen_is_not_judged(void**) {
+TEST(a_spool_that_is_not_seen_is_not_judged) {
   Machine machine;
   machine.inputs.valve_enabled = false;
   machine.inputs.drive[0].spool_ratio = kOpen;
@@ -58,7 +58,7 @@ void a_spool_that_is_not_seen_is_not_judged(void**) {
                    kEchoCycles - kSpoolWrongCycles);
 }
 
-void the_blade_stops(void**) {
+TEST(the_blade_stops) {
   Machine moves;
   moves.run(20);
   moves.inputs.drive[0].stroke_m = 0.625;
@@ -78,7 +78,7 @@ void the_blade_stops(void**) {
 }
 
 /// Each of the four.
-void a_displacement_that_stays_behind_stops(void**) {
+TEST(a_displacement_that_stays_behind_stops) {
   for (unsigned track = 0; track < kTrackCount; ++track) {
     for (const bool motor : {false, true}) {
       Machine machine;
@@ -94,7 +94,7 @@ void a_displacement_that_stays_behind_stops(void**) {
   }
 }
 
-void a_displacement_that_runs_away_stops(void**) {
+TEST(a_displacement_that_runs_away_stops) {
   for (unsigned track = 0; track < kTrackCount; ++track) {
     for (const bool motor : {false, true}) {
       Machine machine;
@@ -107,7 +107,7 @@ void a_displacement_that_runs_away_stops(void**) {
   }
 }
 
-void the_first_fault_stays_the_first(void**) {
+TEST(the_first_fault_stays_the_first) {
   Machine machine;
   machine.inputs.valve_enabled = false;
   machine.run(kEchoCycles - 1);
@@ -119,7 +119,7 @@ void the_first_fault_stays_the_first(void**) {
 }
 
 /// With a fault that stops, the blade's watch begins afresh.
-void a_stopped_blade_is_not_judged(void**) {
+TEST(a_stopped_blade_is_not_judged) {
   Machine machine;
   machine.run(20);
   assert_true(machine.state.drives.motion[0].since_s > 0.0);
@@ -131,7 +131,7 @@ void a_stopped_blade_is_not_judged(void**) {
 }
 
 /// Outside motion people move it: blade and transmission are theirs. The valve's echo is not.
-void not_in_motion_the_machine_is_the_operators(void**) {
+TEST(not_in_motion_the_machine_is_the_operators) {
   Machine machine;
   const DozerLastCommands nothing;
   machine.cycle = nothing;
@@ -147,7 +147,7 @@ void not_in_motion_the_machine_is_the_operators(void**) {
   assert_int_equal(machine.cycles_until(Fault::kValveNotFollowing), kEchoCycles);
 }
 
-void a_spool_that_does_not_close_after_motion_is_stuck(void**) {
+TEST(a_spool_that_does_not_close_after_motion_is_stuck) {
   Released machine;
   assert_int_equal(machine.cycles_until(Fault::kSpoolStuck),
                    kSpoolUnderWay - 1 + kSpoolWrongCycles);
@@ -159,7 +159,7 @@ void a_spool_that_does_not_close_after_motion_is_stuck(void**) {
 }
 
 /// The pumps have the time to settle; one that stays drives the machine.
-void a_pump_that_does_not_return_after_motion_runs_away(void**) {
+TEST(a_pump_that_does_not_return_after_motion_runs_away) {
   for (unsigned track = 0; track < kTrackCount; ++track) {
     Released machine;
     machine.inputs.pump_ratio[1 - track] = 0.0;
@@ -174,7 +174,7 @@ void a_pump_that_does_not_return_after_motion_runs_away(void**) {
 }
 
 /// Taken over in manual mode, it is somebody's hand; an operator who is not heard has not.
-void manual_mode_takes_over(void**) {
+TEST(manual_mode_takes_over) {
   Released taken;
   taken.inputs.automatic = false;
   assert_int_equal(taken.cycles_until(Fault::kDisplacementRunaway), -1);
@@ -187,7 +187,7 @@ void manual_mode_takes_over(void**) {
 }
 
 /// A transmission that is not seen is not judged, and has not returned either.
-void what_is_not_seen_has_not_returned(void**) {
+TEST(what_is_not_seen_has_not_returned) {
   Released machine;
   machine.inputs.faults.add(Fault::kTransmissionMissing);
   machine.inputs.pump_ratio = {0.0, 0.0};
@@ -198,14 +198,14 @@ void what_is_not_seen_has_not_returned(void**) {
 }
 
 /// After motion the tracks coast as they like.
-void tracks_are_judged_in_motion_only(void**) {
+TEST(tracks_are_judged_in_motion_only) {
   Released machine;
   machine.inputs.track_speed_mps = {3.0, 3.0};
   machine.run(20);
   assert_false(machine.seen.faults.has(Fault::kTrackSpeedDisagrees));
 }
 
-void what_degraded_goes_on_for_a_second(void**) {
+TEST(what_degraded_goes_on_for_a_second) {
   Machine machine;
   machine.inputs.degraded.add(Fault::kEngineSpeedMissing);
   assert_slowed_by(Fault::kEngineSpeedMissing, machine.step());
@@ -214,7 +214,7 @@ void what_degraded_goes_on_for_a_second(void**) {
   assert_well(machine.step());
 }
 
-void centred_is_within_the_tolerance(void**) {
+TEST(centred_is_within_the_tolerance) {
   const DozerBank bank = dozer_bank(test::plain_dozer());
   DozerValid valid;
   for (const double sign : {1.0, -1.0}) {
@@ -227,24 +227,4 @@ void centred_is_within_the_tolerance(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_machine_that_obeys_is_left_alone),
-      cmocka_unit_test(the_spool_and_its_echo_stop),
-      cmocka_unit_test(a_spool_that_is_not_seen_is_not_judged),
-      cmocka_unit_test(the_blade_stops),
-      cmocka_unit_test(a_displacement_that_stays_behind_stops),
-      cmocka_unit_test(a_displacement_that_runs_away_stops),
-      cmocka_unit_test(the_first_fault_stays_the_first),
-      cmocka_unit_test(a_stopped_blade_is_not_judged),
-      cmocka_unit_test(not_in_motion_the_machine_is_the_operators),
-      cmocka_unit_test(a_spool_that_does_not_close_after_motion_is_stuck),
-      cmocka_unit_test(a_pump_that_does_not_return_after_motion_runs_away),
-      cmocka_unit_test(manual_mode_takes_over),
-      cmocka_unit_test(what_is_not_seen_has_not_returned),
-      cmocka_unit_test(tracks_are_judged_in_motion_only),
-      cmocka_unit_test(what_degraded_goes_on_for_a_second),
-      cmocka_unit_test(centred_is_within_the_tolerance),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -36,7 +36,7 @@ double most_of_limits(const DriveLimits& limits, const DrivePlan& plan, bool acc
 }
 
 /// By hand: 0.8 m of boom out at 0.2 m/s; t_1 = pi v / (2 a), T = s / v + t_1.
-void one_drive_at_its_limits(void**) {
+TEST(one_drive_at_its_limits) {
   const DrivePlan plan =
       plan_drives(round_limits(), {0.1, 0.3, 0.3, 0.0}, {0.9, 0.3, 0.3, 0.0}, {});
   assert_near(plan.ramp.ramp_s, 0.62831853, 1e-8);
@@ -47,7 +47,7 @@ void one_drive_at_its_limits(void**) {
   assert_near(most_of_limits(round_limits(), plan, true), 1.0, 1e-4);
 }
 
-void the_way_back_has_its_own_limit(void**) {
+TEST(the_way_back_has_its_own_limit) {
   const DrivePlan plan =
       plan_drives(round_limits(), {0.9, 0.3, 0.3, 0.4}, {0.1, 0.3, 0.3, 0.4}, {});
   assert_near(drive_state(plan, 0.5 * plan.ramp.duration_s).velocity[kBoom], -0.4, 1e-12);
@@ -57,7 +57,7 @@ void the_way_back_has_its_own_limit(void**) {
 }
 
 /// 2 mm: half of it faster, half slower, T^2 = 2 pi s / a.
-void a_short_move_never_is_uniform(void**) {
+TEST(a_short_move_never_is_uniform) {
   const DrivePlan plan =
       plan_drives(round_limits(), {0.1, 0.3, 0.3, 0.0}, {0.102, 0.3, 0.3, 0.0}, {});
   assert_near(plan.ramp.duration_s, std::sqrt(2.0 * 3.14159265358979 * 0.002 / 0.5), 1e-9);
@@ -66,7 +66,7 @@ void a_short_move_never_is_uniform(void**) {
 }
 
 /// Random moves: limits kept, one of them met; ends exact; on the straight line between them.
-void random_moves_meet_one_limit(void**) {
+TEST(random_moves_meet_one_limit) {
   const DriveLimits limits = drive_limits(test::excavator_12t().profile);
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     plant::Random random(seed, plant::Draw::kStart);
@@ -93,7 +93,7 @@ void random_moves_meet_one_limit(void**) {
 }
 
 /// A longer duration is kept to the letter, a shorter one gives way to the limits.
-void the_longer_rule_holds(void**) {
+TEST(the_longer_rule_holds) {
   const DriveLimits limits = round_limits();
   const DriveVector from(0.1, 0.3, 0.3, 0.0);
   const DriveVector to(0.9, 0.1, 0.8, 1.0);
@@ -108,7 +108,7 @@ void the_longer_rule_holds(void**) {
   assert_true(plan_drives(limits, from, to, {0.5, 0.0}).ramp.duration_s > 1.41 * shortest_s);
 }
 
-void velocities_are_differences(void**) {
+TEST(velocities_are_differences) {
   constexpr double kStep_s = 1e-5;
   const DrivePlan plan =
       plan_drives(round_limits(), {0.1, 0.3, 0.3, 0.0}, {0.9, 0.1, 0.8, -1.0}, {0.7, 0.0});
@@ -123,7 +123,7 @@ void velocities_are_differences(void**) {
   }
 }
 
-void nothing_to_move_has_no_duration(void**) {
+TEST(nothing_to_move_has_no_duration) {
   const DriveVector here(0.1, 0.3, 0.3, 0.5);
   const DrivePlan plan = plan_drives(round_limits(), here, here, {1.0, 5.0});
   assert_near(plan.ramp.duration_s, 0.0, 0.0);
@@ -133,15 +133,4 @@ void nothing_to_move_has_no_duration(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(one_drive_at_its_limits),
-      cmocka_unit_test(the_way_back_has_its_own_limit),
-      cmocka_unit_test(a_short_move_never_is_uniform),
-      cmocka_unit_test(random_moves_meet_one_limit),
-      cmocka_unit_test(the_longer_rule_holds),
-      cmocka_unit_test(velocities_are_differences),
-      cmocka_unit_test(nothing_to_move_has_no_duration),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

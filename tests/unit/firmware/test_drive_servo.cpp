@@ -69,7 +69,7 @@ struct Run {
 
 /// Whatever is asked of it and whatever the dead time: a cylinder that answers as expected owes
 /// nothing, and stands in the end where it was predicted.
-void a_cylinder_as_expected_owes_nothing(void**) {
+TEST(a_cylinder_as_expected_owes_nothing) {
   for (const double dead_time_s : {0.0, 0.03, 0.15, 0.5}) {
     Run run(dead_time_s, 1.0);
     for (int n = 0; n < 200; ++n) {
@@ -87,7 +87,7 @@ void a_cylinder_as_expected_owes_nothing(void**) {
 }
 
 /// One that does nine tenths owes the tenth, no more than its bound, and only on its own axis.
-void a_slow_cylinder_owes_what_it_lacks(void**) {
+TEST(a_slow_cylinder_owes_what_it_lacks) {
   Run run(0.0, 0.9);
   for (int n = 0; n < 100; ++n) {
     run.step(0.1);
@@ -102,7 +102,7 @@ void a_slow_cylinder_owes_what_it_lacks(void**) {
 }
 
 /// A held cylinder whose lambda has gone to 0 owes nothing new: nothing winds up.
-void where_lambda_is_0_nothing_winds_up(void**) {
+TEST(where_lambda_is_0_nothing_winds_up) {
   Run run(0.0, 0.0);
   for (int n = 0; n < 50; ++n) {
     run.step(0.01);
@@ -114,7 +114,7 @@ void where_lambda_is_0_nothing_winds_up(void**) {
   assert_near(of(run.servo, &ServoState::integral_m)[0], before_m + 0.01 * 0.05, 1e-4);
 }
 
-void what_is_owed_is_asked_for_whole_at_any_lambda(void**) {
+TEST(what_is_owed_is_asked_for_whole_at_any_lambda) {
   ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
   set(servo, &ServoState::correction_m, {0.01, -0.005, 0.0, 0.0});
   const DriveVector wanted(0.1, 0.1, 0.1, 0.0);
@@ -130,7 +130,7 @@ void what_is_owed_is_asked_for_whole_at_any_lambda(void**) {
 }
 
 /// A slow dial is a slow machine: what is owed is paid in its ratio.
-void what_is_owed_goes_with_the_operators_speed(void**) {
+TEST(what_is_owed_goes_with_the_operators_speed) {
   ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
   set(servo, &ServoState::correction_m, {0.02, 0.02, -0.02, 0.0});
   const DriveVector wanted(0.001, 0.001, 0.001, 0.0);
@@ -141,7 +141,7 @@ void what_is_owed_goes_with_the_operators_speed(void**) {
 }
 
 /// At a cylinder's end what is owed is not asked for, and does not hold up the others.
-void what_is_owed_stops_at_a_stroke_end(void**) {
+TEST(what_is_owed_stops_at_a_stroke_end) {
   ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.0, 0.0});
   set(servo, &ServoState::correction_m, {0.01, 0.0, -0.02, 0.0});
   const DriveVector away = corrected_velocity(machine(), {0.1, 0.1, 0.03, 0.0}, servo, 0.5, 1.0);
@@ -159,7 +159,7 @@ void what_is_owed_stops_at_a_stroke_end(void**) {
 }
 
 /// Let go, what is under way still arrives and is no debt.
-void a_released_servo_still_expects_what_is_under_way(void**) {
+TEST(a_released_servo_still_expects_what_is_under_way) {
   Run run(0.15, 1.0);
   for (int n = 0; n < 40; ++n) {
     run.step(0.1);
@@ -183,7 +183,7 @@ void a_released_servo_still_expects_what_is_under_way(void**) {
 
 /// A late cycle leaves nothing behind: the prediction is what ring and lags hold, no sum of
 /// periods.
-void an_uneven_period_leaves_nothing_behind(void**) {
+TEST(an_uneven_period_leaves_nothing_behind) {
   Run run(0.15, 1.0);
   for (int n = 0; n < 400; ++n) {
     const double asked_mps = n < 200 ? 0.2 * std::sin(0.3 * n) : 0.0;
@@ -194,14 +194,14 @@ void an_uneven_period_leaves_nothing_behind(void**) {
 }
 
 /// At rest is at rest, whatever is owed.
-void nothing_wanted_is_nothing_asked(void**) {
+TEST(nothing_wanted_is_nothing_asked) {
   ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
   set(servo, &ServoState::integral_m, {0.01, 0.01, 0.01, 0.0});
   set(servo, &ServoState::correction_m, of(servo, &ServoState::integral_m));
   assert_near(corrected_velocity(machine(), DriveVector::Zero(), servo, 0.5, 1.0).norm(), 0.0, 0.0);
 }
 
-void a_prediction_stays_within_the_strokes(void**) {
+TEST(a_prediction_stays_within_the_strokes) {
   const ExcavatorProfile& profile = test::excavator().profile;
   ExcavatorServo servo = servo_at_rest({0.01, 0.7, 1.1, 0.0});
   set(servo, &ServoState::under_way_m, {-0.05, 0.01, 0.05, 0.0});
@@ -212,7 +212,7 @@ void a_prediction_stays_within_the_strokes(void**) {
 }
 
 /// Where all drives answer alike, each command takes effect at the same place, to the bit.
-void drives_alike_have_one_place(void**) {
+TEST(drives_alike_have_one_place) {
   const ExcavatorBank bank = excavator_bank(test::excavator().profile);
   ExcavatorServo servo = servo_at_rest({0.3, 0.7, 0.5, 0.0});
   set(servo, &ServoState::under_way_m, {-0.05, 0.01, 0.05, 0.0});
@@ -224,7 +224,7 @@ void drives_alike_have_one_place(void**) {
 
 /// A boom that is 0.25 s later than the others, and 0.05 s more when it retracts: when it answers,
 /// they will be farther; when they answer, it will not be there yet.
-void drives_apart_have_a_place_each(void**) {
+TEST(drives_apart_have_a_place_each) {
   ExcavatorBank bank = excavator_bank(test::excavator().profile);
   SpoolAnswers& boom = bank.row[kBoom].answer;
   boom.extend.dead_time_s += 0.25;
@@ -246,7 +246,7 @@ void drives_apart_have_a_place_each(void**) {
 }
 
 /// What is taken for granted of a drive ends where the drive does.
-void a_place_stays_within_the_strokes(void**) {
+TEST(a_place_stays_within_the_strokes) {
   ExcavatorBank bank = excavator_bank(test::excavator().profile);
   bank.row[kBoom].answer.extend.dead_time_s += 0.25;
   const ExcavatorServo servo = servo_at_rest({0.3, 0.7, 0.01, 0.0});
@@ -277,7 +277,7 @@ std::complex<double> shaken(double frequency_hz, double period_s) {
 /// What changes slowly is asked for as it is; what shakes at the oil's lowest mode by a good
 /// quarter of a period later and not smaller, so that with the response's lag it opposes the
 /// motion; what is faster, hardly.
-void what_shakes_is_asked_for_a_quarter_of_a_period_later(void**) {
+TEST(what_shakes_is_asked_for_a_quarter_of_a_period_later) {
   const std::complex<double> slow = shaken(0.25, kPeriod_s);
   assert_near(std::abs(slow), 1.0, 0.02);
   assert_near(std::arg(slow), -2.0 * 0.4 * 0.25 / 2.4, 0.03);
@@ -288,7 +288,7 @@ void what_shakes_is_asked_for_a_quarter_of_a_period_later(void**) {
 }
 
 /// All of it in the end, no more than a third beyond on the way, at any period.
-void what_stays_owed_is_asked_for_whole(void**) {
+TEST(what_stays_owed_is_asked_for_whole) {
   const ControlProfile profile = control();
   for (const double period_s : {0.001, 0.01, 0.05}) {
     ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
@@ -314,7 +314,7 @@ void what_stays_owed_is_asked_for_whole(void**) {
 
 /// A drive that its load holds owes nothing more to that side and forgets what it owed; to the
 /// other side it owes as ever, and learns no lag.
-void what_a_load_holds_is_not_owed(void**) {
+TEST(what_a_load_holds_is_not_owed) {
   const ExcavatorProfile profile = machine();
   const ExcavatorBank bank = excavator_bank(profile);
   const DriveRow& row = bank.rows()[0];
@@ -352,24 +352,4 @@ void what_a_load_holds_is_not_owed(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_cylinder_as_expected_owes_nothing),
-      cmocka_unit_test(a_slow_cylinder_owes_what_it_lacks),
-      cmocka_unit_test(where_lambda_is_0_nothing_winds_up),
-      cmocka_unit_test(what_is_owed_is_asked_for_whole_at_any_lambda),
-      cmocka_unit_test(what_is_owed_goes_with_the_operators_speed),
-      cmocka_unit_test(what_is_owed_stops_at_a_stroke_end),
-      cmocka_unit_test(a_released_servo_still_expects_what_is_under_way),
-      cmocka_unit_test(an_uneven_period_leaves_nothing_behind),
-      cmocka_unit_test(nothing_wanted_is_nothing_asked),
-      cmocka_unit_test(a_prediction_stays_within_the_strokes),
-      cmocka_unit_test(drives_alike_have_one_place),
-      cmocka_unit_test(drives_apart_have_a_place_each),
-      cmocka_unit_test(a_place_stays_within_the_strokes),
-      cmocka_unit_test(what_shakes_is_asked_for_a_quarter_of_a_period_later),
-      cmocka_unit_test(what_stays_owed_is_asked_for_whole),
-      cmocka_unit_test(what_a_load_holds_is_not_owed),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -37,7 +37,7 @@ FallState after(const GradeProfile& design, const FallSituation& now, double sec
   return state;
 }
 
-void on_level_ground_nothing_falls(void**) {
+TEST(on_level_ground_nothing_falls) {
   const FallState state = after(GradeProfile(test::level(0.0)), level_at(0.0, 0.1), 0.5);
   assert_near(state.sinks_m, 0.0, 1e-6);
   assert_near(state.lift_m, 0.0, 0.0);
@@ -45,7 +45,7 @@ void on_level_ground_nothing_falls(void**) {
 
 /// Its mass centre 0.4 m beyond a crest, and still level: it will come down faster than a slow
 /// blade rises. A fast one it does not need room for.
-void a_body_that_is_held_over_a_crest_is_given_room(void**) {
+TEST(a_body_that_is_held_over_a_crest_is_given_room) {
   const GradeProfile design(test::bend(-0.3, 0.3));
   const FallState slow = after(design, level_at(10.4, 0.03), 0.5);
   const FallState fast = after(design, level_at(10.4, 0.5), 0.5);
@@ -58,7 +58,7 @@ void a_body_that_is_held_over_a_crest_is_given_room(void**) {
 }
 
 /// As fast as a lift may, down slower; its rate is told.
-void the_lift_comes_and_goes_at_its_rates(void**) {
+TEST(the_lift_comes_and_goes_at_its_rates) {
   const GradeProfile crest(test::bend(-0.3, 0.3));
   const FallState rising = after(crest, level_at(10.4, 0.03), 0.08);
   assert_near(rising.rate_mps, 0.2, 1e-9);
@@ -70,7 +70,7 @@ void the_lift_comes_and_goes_at_its_rates(void**) {
 }
 
 /// An edge that is raised already falls as far, and not from a design that it does not touch.
-void it_counts_from_where_the_edge_is(void**) {
+TEST(it_counts_from_where_the_edge_is) {
   const GradeProfile design(test::bend(-0.3, 0.3));
   FallSituation above = level_at(10.4, 0.03);
   above.stroke_m -= 0.01;
@@ -80,7 +80,7 @@ void it_counts_from_where_the_edge_is(void**) {
 
 /// The blade has to have risen by what the edge sinks when the machine is 0.1 m on; where it rises
 /// in time nothing holds the machine.
-void a_deep_fall_is_driven_to_slowly(void**) {
+TEST(a_deep_fall_is_driven_to_slowly) {
   const GradeProfile design(test::bend(-0.3, 0.3));
   const FallState deep = after(design, level_at(10.4, 0.03), 0.1);
   const double per_stroke = -blade().edge_rate_mprad(0.0).y() / blade().stroke_rate_mprad(0.0);
@@ -92,13 +92,4 @@ void a_deep_fall_is_driven_to_slowly(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(on_level_ground_nothing_falls),
-      cmocka_unit_test(a_body_that_is_held_over_a_crest_is_given_room),
-      cmocka_unit_test(the_lift_comes_and_goes_at_its_rates),
-      cmocka_unit_test(a_deep_fall_is_driven_to_slowly),
-      cmocka_unit_test(it_counts_from_where_the_edge_is),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

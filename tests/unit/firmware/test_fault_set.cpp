@@ -7,7 +7,7 @@ namespace {
 
 using namespace graben;
 
-void it_begins_empty(void**) {
+TEST(it_begins_empty) {
   const FaultSet none;
   assert_true(none.empty());
   assert_int_equal(none.bits(), 0);
@@ -18,7 +18,7 @@ void it_begins_empty(void**) {
 }
 
 /// Bit n is the fault of number n, which is what goes on the bus.
-void each_fault_has_its_own_bit(void**) {
+TEST(each_fault_has_its_own_bit) {
   for (int code = 1; code < kFaultCount; ++code) {
     FaultSet one;
     one.add(static_cast<Fault>(code));
@@ -32,7 +32,7 @@ void each_fault_has_its_own_bit(void**) {
   }
 }
 
-void none_is_never_in_it(void**) {
+TEST(none_is_never_in_it) {
   FaultSet faults;
   faults.add(Fault::kNone);
   assert_true(faults.empty());
@@ -40,14 +40,14 @@ void none_is_never_in_it(void**) {
 }
 
 /// A number beyond the last fault's may be in it, from a newer sender; nobody is told of it.
-void an_unknown_number_is_not_named(void**) {
+TEST(an_unknown_number_is_not_named) {
   FaultSet faults;
   faults.add(static_cast<Fault>(kFaultCount));
   assert_int_equal(faults.first(), Fault::kNone);
   assert_int_equal(faults.after(Fault::kSensorError), Fault::kNone);
 }
 
-void sets_are_united(void**) {
+TEST(sets_are_united) {
   FaultSet some;
   some.add(Fault::kBusOff);
   some.add(Fault::kStrokeMissing);
@@ -67,11 +67,4 @@ void sets_are_united(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_begins_empty),     cmocka_unit_test(each_fault_has_its_own_bit),
-      cmocka_unit_test(none_is_never_in_it), cmocka_unit_test(an_unknown_number_is_not_named),
-      cmocka_unit_test(sets_are_united),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -82,7 +82,7 @@ const Promise kPromises[] = {
     {36, Fault::kTrackSpeedDisagrees, 'D', 2, ArmBlock::kTransmission},
 };
 
-void every_fault_keeps_its_promise(void**) {
+TEST(every_fault_keeps_its_promise) {
   std::array<int, kFaultCount> promised{};
   for (const Promise& promise : kPromises) {
     const FaultRow& row = fault_row(promise.fault);
@@ -111,7 +111,7 @@ void every_fault_keeps_its_promise(void**) {
 }
 
 /// What is no fault does nothing, lights no lamp.
-void what_is_no_fault_does_nothing(void**) {
+TEST(what_is_no_fault_does_nothing) {
   for (const int code : {0, kFaultCount, 255}) {
     const FaultRow& row = fault_row(static_cast<Fault>(code));
     assert_int_equal(row.fault, Fault::kNone);
@@ -124,10 +124,4 @@ void what_is_no_fault_does_nothing(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(every_fault_keeps_its_promise),
-      cmocka_unit_test(what_is_no_fault_does_nothing),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -19,7 +19,7 @@ const PointMotion& at(const MachineMotion& motion, MachinePoint point) {
 
 /// Against the closed chain: teeth by its own function, the pins a link's length apart, the boom's
 /// end by hand.
-void points_of_the_machine(void**) {
+TEST(points_of_the_machine) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     plant::Random random(seed, plant::Draw::kStart);
     const DriveVector drive = machine().random_drive(random);
@@ -40,7 +40,7 @@ void points_of_the_machine(void**) {
   }
 }
 
-void closing_speed_is_the_distance_s_difference(void**) {
+TEST(closing_speed_is_the_distance_s_difference) {
   constexpr double kStep_s = 1e-6;
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     plant::Random random(seed, plant::Draw::kStart);
@@ -62,7 +62,7 @@ void closing_speed_is_the_distance_s_difference(void**) {
   }
 }
 
-void the_design_is_a_fence_for_the_teeth_from_above(void**) {
+TEST(the_design_is_a_fence_for_the_teeth_from_above) {
   const DesignPlane design{{1.0, 2.0, -0.5}, Eigen::Vector3d(0.1, 0.0, 1.0).normalized(), 0.02};
   const Eigen::Vector3d above_m = design.through_m + 0.3 * design.up;
   assert_near(design.height_m(above_m), 0.3, 1e-12);
@@ -81,7 +81,7 @@ const test::ReplayMachine& whole() {
 
 /// The bucket is as the simulated machine has it: edge to heel 0.5535 m at 0.65 rad, 1 m wide; the
 /// counterweight's corners are 2.2 m from the swing axis.
-void the_outline_goes_with_the_machine(void**) {
+TEST(the_outline_goes_with_the_machine) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     plant::Random random(seed, plant::Draw::kStart);
     const DriveVector drive = whole().random_drive(random);
@@ -108,7 +108,7 @@ void the_outline_goes_with_the_machine(void**) {
 
 /// Drives off by what they may be off at most, all ways: no point is farther off than it says, and
 /// some way it is, nearly.
-void a_point_is_unsure_by_what_its_drives_may_be_off(void**) {
+TEST(a_point_is_unsure_by_what_its_drives_may_be_off) {
   const DriveVector unsure(2e-3, 2e-3, 2e-3, 1e-3);
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     plant::Random random(seed, plant::Draw::kStart);
@@ -135,7 +135,7 @@ void a_point_is_unsure_by_what_its_drives_may_be_off(void**) {
   }
 }
 
-void what_is_looked_at(void**) {
+TEST(what_is_looked_at) {
   const ExcavatorBody& body = whole().profile.geometry.body;
   Fence wall;
   wall.normal = Eigen::Vector3d::UnitX();
@@ -156,7 +156,7 @@ void what_is_looked_at(void**) {
 
 /// Sensors' errors and what it gives; more for what is planned, the faster the more; none before a
 /// design.
-void margins(void**) {
+TEST(margins) {
   const FenceProfile allows{2e-3, 1e-3, 0.02, 0.01, 0.03};
   ExcavatorProfile profile = whole().profile;
   profile.fence = allows;
@@ -173,7 +173,7 @@ void margins(void**) {
   assert_near(held_margin_m(allows, DesignPlane{}.fence(), motion, gap), 0.0, 0.0);
 }
 
-void strokes_that_can_t_be_have_no_points(void**) {
+TEST(strokes_that_can_t_be_have_no_points) {
   const MachineMotion motion =
       machine_motion(machine().kinematics, {0.5, 1.2, 0.4, 0.0}, DriveVector::Zero());
   assert_int_equal(motion.status, ReachStatus::kArmStroke);
@@ -181,16 +181,4 @@ void strokes_that_can_t_be_have_no_points(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(points_of_the_machine),
-      cmocka_unit_test(closing_speed_is_the_distance_s_difference),
-      cmocka_unit_test(the_design_is_a_fence_for_the_teeth_from_above),
-      cmocka_unit_test(the_outline_goes_with_the_machine),
-      cmocka_unit_test(a_point_is_unsure_by_what_its_drives_may_be_off),
-      cmocka_unit_test(what_is_looked_at),
-      cmocka_unit_test(margins),
-      cmocka_unit_test(strokes_that_can_t_be_have_no_points),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -33,31 +33,31 @@ FlowShareState after(double due_mps, double moving_mps, double seconds, FlowShar
   return state;
 }
 
-void a_pump_that_gives_less_is_found_out(void**) {
+TEST(a_pump_that_gives_less_is_found_out) {
   const FlowShareState worn = after(raising_mps(1.0), raising_mps(0.9), 0.6);
   assert_near(worn.share, 0.9, 0.002);
   // Half of it as soon as a fall over a crest takes.
   assert_true(after(raising_mps(1.0), raising_mps(0.9), 0.15).share < 0.94);
 }
 
-void what_it_gives_it_can_give(void**) {
+TEST(what_it_gives_it_can_give) {
   assert_near(after(raising_mps(1.0), raising_mps(1.0), 1.0).share, 1.0, 0.002);
   // A valve that is to let through less says nothing of the pump.
   assert_near(after(raising_mps(0.85), raising_mps(0.85), 1.0).share, FlowShareState{}.share, 0.0);
   assert_near(after(raising_mps(0.5), raising_mps(0.2), 1.0).share, FlowShareState{}.share, 0.0);
 }
 
-void a_blade_that_the_ground_holds_tells_nothing(void**) {
+TEST(a_blade_that_the_ground_holds_tells_nothing) {
   const double down_mps =
       available_flow_m3ps(profile().implement, kEngine_radps) / profile().blade.cap_area_m2();
   assert_near(after(down_mps, 0.5 * down_mps, 1.0).share, FlowShareState{}.share, 0.0);
 }
 
-void no_pump_is_planned_with_that_gives_next_to_nothing(void**) {
+TEST(no_pump_is_planned_with_that_gives_next_to_nothing) {
   assert_near(after(raising_mps(1.0), 0.0, 2.0).share, 0.8, 0.0);
 }
 
-void what_was_not_commanded_does_not_count(void**) {
+TEST(what_was_not_commanded_does_not_count) {
   FlowSituation now;
   now.due_mps[kBladeLift] = raising_mps(1.0);
   FlowShareState state;
@@ -69,13 +69,4 @@ void what_was_not_commanded_does_not_count(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_pump_that_gives_less_is_found_out),
-      cmocka_unit_test(what_it_gives_it_can_give),
-      cmocka_unit_test(a_blade_that_the_ground_holds_tells_nothing),
-      cmocka_unit_test(no_pump_is_planned_with_that_gives_next_to_nothing),
-      cmocka_unit_test(what_was_not_commanded_does_not_count),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

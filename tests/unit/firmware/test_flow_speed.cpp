@@ -10,7 +10,7 @@ using namespace graben;
 using namespace graben::test::of_flow;
 
 /// What leaves the draining side, over its area; either way by its own edge.
-void the_draining_side_tells_the_speed(void**) {
+TEST(the_draining_side_tells_the_speed) {
   const DriveRow row = plain();
   const double least = 0.88 * opening(0.6, -0.035);
   const double most = 1.12 * opening(0.6, 0.035);
@@ -22,7 +22,7 @@ void the_draining_side_tells_the_speed(void**) {
                -least * 5e-6 * std::sqrt(5e6 - kLost_pa) / 0.02);
 }
 
-void a_spool_in_its_dead_band_moves_nothing(void**) {
+TEST(a_spool_in_its_dead_band_moves_nothing) {
   for (const double spool : {0.0, 0.16, -0.16}) {
     assert_range(possible_speed(plain(), nullptr, at(spool, 5e6, 5e6), kEngine_radps), 0.0, 0.0);
   }
@@ -33,7 +33,7 @@ void a_spool_in_its_dead_band_moves_nothing(void**) {
 }
 
 /// Held by a rock there is no pressure left; the fed side's may push it back.
-void an_empty_side_carries_nothing(void**) {
+TEST(an_empty_side_carries_nothing) {
   const double most = 1.12 * opening(0.6, 0.035);
   assert_range(possible_speed(plain(), nullptr, at(0.6, 15e6, 1e6), kEngine_radps),
                -most * 4e-6 * std::sqrt(15e6 + kZero_pa) / 0.02,
@@ -47,7 +47,7 @@ void an_empty_side_carries_nothing(void**) {
 }
 
 /// Least: through the drain alone. Most: the check open to what the fed side has, or not at all.
-void a_regenerating_side_passes_drain_and_check(void**) {
+TEST(a_regenerating_side_passes_drain_and_check) {
   DriveRow row = plain();
   row.spool.regeneration = RegenerationSide::kExtend;
   const double least_out = 0.88 * opening(0.6, -0.035) * 2e-6;
@@ -73,13 +73,13 @@ void a_regenerating_side_passes_drain_and_check(void**) {
 }
 
 /// To the last bit at the end of what bias and return line may take.
-void no_less_than_nothing_is_left(void**) {
+TEST(no_less_than_nothing_is_left) {
   assert_true(possible_speed(plain(), nullptr, at(0.6, 15e6, kLost_pa), kEngine_radps).least_mps <
               0.0);
 }
 
 /// Where the dead band is smaller than the sensor's error, a closed spool may be open either way.
-void without_a_dead_band_it_may_go_either_way(void**) {
+TEST(without_a_dead_band_it_may_go_either_way) {
   DriveRow row = plain();
   const double opens[] = {0.0, 1.0};
   const double duty[] = {0.0, 1.0};
@@ -97,7 +97,7 @@ void without_a_dead_band_it_may_go_either_way(void**) {
 }
 
 /// At 2 the bound is the power itself.
-void an_orifices_square_is_exact(void**) {
+TEST(an_orifices_square_is_exact) {
   DriveRow row = plain();
   row.metering.opening_exponent = 2.0;
   const double least = 0.88 * opening(0.3, -0.035) * opening(0.3, -0.035);
@@ -106,7 +106,7 @@ void an_orifices_square_is_exact(void**) {
 }
 
 /// From below, and near: openings that do not grow in proportion.
-void the_least_opening_is_a_lower_bound(void**) {
+TEST(the_least_opening_is_a_lower_bound) {
   for (const double exponent : {0.7, 1.0, 1.3, 1.9, 2.5}) {
     DriveRow row = plain();
     row.metering.opening_exponent = exponent;
@@ -121,7 +121,7 @@ void the_least_opening_is_a_lower_bound(void**) {
   }
 }
 
-void a_metered_inlet_gives_its_flow_or_the_pumps(void**) {
+TEST(a_metered_inlet_gives_its_flow_or_the_pumps) {
   const DriveRow row = metered_inlet();
   assert_range(possible_speed(row, nullptr, at(0.36, 0.0, 0.0), 1000.0),
                0.8 * opening(0.36, -0.035) * 2e-3 / 0.02, 1.2 * opening(0.36, 0.035) * 2e-3 / 0.02);
@@ -129,7 +129,7 @@ void a_metered_inlet_gives_its_flow_or_the_pumps(void**) {
                -1.2 * opening(0.6, 0.035) * 2e-3 / 0.01, -0.8 * 1e-4 / 0.01);
 }
 
-void leakage_takes_from_the_fed_side(void**) {
+TEST(leakage_takes_from_the_fed_side) {
   DriveRow row = plain();
   row.watch.leak_mpspa = 1e-9;
   assert_range(possible_speed(row, nullptr, at(0.0, 9e6, 4e6), kEngine_radps), -0.005, 0.0);
@@ -137,7 +137,7 @@ void leakage_takes_from_the_fed_side(void**) {
 }
 
 /// Not learnt yet, a valve may be open more or less; a learnt edge moves the bounds.
-void what_is_learnt_moves_the_bounds(void**) {
+TEST(what_is_learnt_moves_the_bounds) {
   const ValidDrive seen = at(0.4, 9e6, 5e6);
   const LearntValve fresh;
   const SpeedRange profiled = possible_speed(plain(), nullptr, seen, kEngine_radps);
@@ -155,7 +155,7 @@ void what_is_learnt_moves_the_bounds(void**) {
 }
 
 /// A metered inlet's opening is the profile's: nothing is learnt of it.
-void a_metered_inlet_is_not_learnt(void**) {
+TEST(a_metered_inlet_is_not_learnt) {
   DriveRow row = plain();
   row.supply = {1e-3, 1e-3};
   const LearntValve fresh;
@@ -165,7 +165,7 @@ void a_metered_inlet_is_not_learnt(void**) {
 }
 
 /// Openings of a side are those of its table, and as uncertain as it is steep there.
-void each_side_has_its_own_curve(void**) {
+TEST(each_side_has_its_own_curve) {
   DriveRow row = plain();
   row.answer = test::two_sides();
   const auto most = [&](double spool_ratio) {
@@ -188,21 +188,4 @@ void each_side_has_its_own_curve(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_draining_side_tells_the_speed),
-      cmocka_unit_test(a_spool_in_its_dead_band_moves_nothing),
-      cmocka_unit_test(an_empty_side_carries_nothing),
-      cmocka_unit_test(a_regenerating_side_passes_drain_and_check),
-      cmocka_unit_test(no_less_than_nothing_is_left),
-      cmocka_unit_test(without_a_dead_band_it_may_go_either_way),
-      cmocka_unit_test(an_orifices_square_is_exact),
-      cmocka_unit_test(the_least_opening_is_a_lower_bound),
-      cmocka_unit_test(a_metered_inlet_gives_its_flow_or_the_pumps),
-      cmocka_unit_test(leakage_takes_from_the_fed_side),
-      cmocka_unit_test(what_is_learnt_moves_the_bounds),
-      cmocka_unit_test(a_metered_inlet_is_not_learnt),
-      cmocka_unit_test(each_side_has_its_own_curve),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -40,7 +40,7 @@ struct Watched {
   double most_mps() { return possible_speed(row, &valve, seen, kEngine_radps).most_mps; }
 };
 
-void within_its_bounds_it_is_sound(void**) {
+TEST(within_its_bounds_it_is_sound) {
   for (const double spool : {0.6, -0.6}) {
     Watched low;
     low.seen.spool_ratio = spool;
@@ -59,7 +59,7 @@ void within_its_bounds_it_is_sound(void**) {
 
 /// The oil's least way since it stands, in whole cycles; the first begins and the second has no
 /// last one yet.
-void a_stroke_that_stands_still_is_stuck(void**) {
+TEST(a_stroke_that_stands_still_is_stuck) {
   for (const double spool : {0.3, -0.3}) {
     Watched watched;
     watched.seen.spool_ratio = spool;
@@ -71,7 +71,7 @@ void a_stroke_that_stands_still_is_stuck(void**) {
 }
 
 /// Shaking by less than the band is standing still; by more it is not, but it falls behind.
-void a_stroke_that_shakes_is_not_stuck_but_wrong(void**) {
+TEST(a_stroke_that_shakes_is_not_stuck_but_wrong) {
   for (const double shake_m : {0.00025, 0.0004}) {
     Watched watched;
     int stuck = 0;
@@ -88,7 +88,7 @@ void a_stroke_that_shakes_is_not_stuck_but_wrong(void**) {
 }
 
 /// To the last bit: what is at a bound is within it.
-void at_its_bound_it_is_sound(void**) {
+TEST(at_its_bound_it_is_sound) {
   constexpr double kMoved_m = 1.0 / 64.0;
   for (const bool at_bound : {true, false}) {
     Watched watched;
@@ -110,7 +110,7 @@ void at_its_bound_it_is_sound(void**) {
 }
 
 /// What is beside the drives that there are is not looked at.
-void only_its_drives_are_watched(void**) {
+TEST(only_its_drives_are_watched) {
   Watched watched;
   const DriveRow rows[] = {watched.row, watched.row};
   const ValidDrive seen[] = {watched.seen, watched.seen};
@@ -123,7 +123,7 @@ void only_its_drives_are_watched(void**) {
   assert_near(states[1].cap_shown_pa, 0.0, 0.0);
 }
 
-void what_runs_ahead_of_its_oil_is_wrong(void**) {
+TEST(what_runs_ahead_of_its_oil_is_wrong) {
   for (const double way : {1.0, -1.0}) {
     Watched watched;
     watched.seen.spool_ratio = 0.0;
@@ -133,7 +133,7 @@ void what_runs_ahead_of_its_oil_is_wrong(void**) {
 }
 
 /// Slower than what 10 s forget it never adds up.
-void leakage_is_forgotten(void**) {
+TEST(leakage_is_forgotten) {
   Watched watched;
   watched.seen.spool_ratio = 0.0;
   assert_int_equal(watched.until(Fault::kMotionImplausible, -0.0007, 20000), 0);
@@ -143,7 +143,7 @@ void leakage_is_forgotten(void**) {
 }
 
 /// Without a new stroke nothing is compared; with the next one all of it is.
-void lost_frames_are_waited_for(void**) {
+TEST(lost_frames_are_waited_for) {
   Watched watched;
   static_cast<void>(watched.step());
   watched.seen.stroke_is_new = false;
@@ -156,7 +156,7 @@ void lost_frames_are_waited_for(void**) {
 
 /// A side that is squeezed lets the drive give way: the draining one always, the other while that
 /// is empty. 3 MPa of 0.65 m of oil are 3.25 mm at its softest.
-void oil_gives_way(void**) {
+TEST(oil_gives_way) {
   struct Case {
     double spool;
     double cap_pa;
@@ -200,7 +200,7 @@ void oil_gives_way(void**) {
 }
 
 /// Its sides are as large wherever it stands.
-void a_motors_oil_does_not_grow(void**) {
+TEST(a_motors_oil_does_not_grow) {
   for (const double spool : {0.1, -0.1}) {
     Watched watched;
     watched.row.control.has_end_stops = false;
@@ -216,7 +216,7 @@ void a_motors_oil_does_not_grow(void**) {
 }
 
 /// Neither pressure may stand still; an empty side's may.
-void dead_pressures_say_nothing(void**) {
+TEST(dead_pressures_say_nothing) {
   for (const bool cap_lives : {false, true}) {
     for (const bool rod_lives : {false, true}) {
       Watched watched;
@@ -252,7 +252,7 @@ void dead_pressures_say_nothing(void**) {
 }
 
 /// At the end of its range, or after a step, a sensor says nothing of the flow.
-void steps_and_rails_say_nothing(void**) {
+TEST(steps_and_rails_say_nothing) {
   for (const double spool : {0.6, -0.6}) {
     Watched watched;
     const bool extends = spool > 0.0;
@@ -288,7 +288,7 @@ void steps_and_rails_say_nothing(void**) {
 }
 
 /// What it was off before stays where one cycle says nothing; not where the load is lost.
-void a_gap_forgets_only_what_it_must(void**) {
+TEST(a_gap_forgets_only_what_it_must) {
   Watched watched;
   for (int n = 0; n < 4; ++n) {
     static_cast<void>(watched.step());
@@ -307,7 +307,7 @@ void a_gap_forgets_only_what_it_must(void**) {
   assert_false(watched.state.begun);
 }
 
-void without_spool_or_load_nothing_is_checked(void**) {
+TEST(without_spool_or_load_nothing_is_checked) {
   Watched no_spool;
   no_spool.row.watch.senses_spool = false;
   assert_int_equal(no_spool.until(Fault::kStrokeStuck, 0.0), 0);
@@ -325,7 +325,7 @@ void without_spool_or_load_nothing_is_checked(void**) {
 }
 
 /// The spool's frame comes every second cycle: the widest of two counts.
-void the_last_cycle_counts_too(void**) {
+TEST(the_last_cycle_counts_too) {
   Watched watched;
   for (int n = 0; n < 3; ++n) {
     static_cast<void>(watched.step());
@@ -341,7 +341,7 @@ void the_last_cycle_counts_too(void**) {
 }
 
 /// It stands where it was while its pilot pressure is there, and leads on while that is gone.
-void a_spool_told_by_its_pilot_comes_later(void**) {
+TEST(a_spool_told_by_its_pilot_comes_later) {
   for (const double way : {1.0, -1.0}) {
     Watched measured;
     measured.seen.spool_ratio = way * 0.6;
@@ -365,7 +365,7 @@ void a_spool_told_by_its_pilot_comes_later(void**) {
 }
 
 /// What is not learnt yet is left room for.
-void a_valve_that_is_not_learnt_is_given_more_time(void**) {
+TEST(a_valve_that_is_not_learnt_is_given_more_time) {
   Watched known;
   Watched fresh;
   fresh.valve = LearntValve{};
@@ -377,25 +377,4 @@ void a_valve_that_is_not_learnt_is_given_more_time(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(within_its_bounds_it_is_sound),
-      cmocka_unit_test(a_stroke_that_stands_still_is_stuck),
-      cmocka_unit_test(a_stroke_that_shakes_is_not_stuck_but_wrong),
-      cmocka_unit_test(at_its_bound_it_is_sound),
-      cmocka_unit_test(only_its_drives_are_watched),
-      cmocka_unit_test(what_runs_ahead_of_its_oil_is_wrong),
-      cmocka_unit_test(leakage_is_forgotten),
-      cmocka_unit_test(lost_frames_are_waited_for),
-      cmocka_unit_test(oil_gives_way),
-      cmocka_unit_test(a_motors_oil_does_not_grow),
-      cmocka_unit_test(dead_pressures_say_nothing),
-      cmocka_unit_test(steps_and_rails_say_nothing),
-      cmocka_unit_test(a_gap_forgets_only_what_it_must),
-      cmocka_unit_test(without_spool_or_load_nothing_is_checked),
-      cmocka_unit_test(the_last_cycle_counts_too),
-      cmocka_unit_test(a_spool_told_by_its_pilot_comes_later),
-      cmocka_unit_test(a_valve_that_is_not_learnt_is_given_more_time),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -18,7 +18,7 @@ Signal<double> shown(double angle_rad, TimeUs at_us) {
   return {angle_rad, Validity::kValid, at_us};
 }
 
-void what_turns_evenly_is_where_it_is(void**) {
+TEST(what_turns_evenly_is_where_it_is) {
   ForetoldAngle state;
   for (TimeUs at_us = 0; at_us < 10 * kPeriod; at_us += kPeriod) {
     const double time_s = static_cast<double>(at_us) / kSecondUs;
@@ -32,7 +32,7 @@ void what_turns_evenly_is_where_it_is(void**) {
 }
 
 /// A link on its oil: of 20 ms of lag at 3 Hz less than a quarter is left.
-void what_swings_lags_little(void**) {
+TEST(what_swings_lags_little) {
   constexpr double kOmega = 2.0 * 3.14159265358979 * 3.0;
   ForetoldAngle state;
   double most_late = 0.0;
@@ -50,7 +50,7 @@ void what_swings_lags_little(void**) {
   assert_in_range(static_cast<int>(1e3 * most_ahead), 10, 150);
 }
 
-void a_reading_that_does_not_come_changes_nothing(void**) {
+TEST(a_reading_that_does_not_come_changes_nothing) {
   ForetoldAngle state;
   static_cast<void>(foretold(shown(0.00, 0), kLatency_s, state));
   static_cast<void>(foretold(shown(0.01, kPeriod), kLatency_s, state));
@@ -59,7 +59,7 @@ void a_reading_that_does_not_come_changes_nothing(void**) {
   assert_near(foretold(shown(0.02, 2 * kPeriod), kLatency_s, state).value, once, 0.0);
 }
 
-void what_is_not_known_is_as_it_is_shown(void**) {
+TEST(what_is_not_known_is_as_it_is_shown) {
   ForetoldAngle state;
   static_cast<void>(foretold(shown(0.0, 0), kLatency_s, state));
   static_cast<void>(foretold(shown(0.1, kPeriod), kLatency_s, state));
@@ -72,7 +72,7 @@ void what_is_not_known_is_as_it_is_shown(void**) {
   assert_near(foretold(shown(0.7, 13 * kPeriod), kLatency_s, state).value, 0.7, 0.0);
 }
 
-void what_comes_in_time_stays(void**) {
+TEST(what_comes_in_time_stays) {
   ForetoldAngle state;
   for (TimeUs at_us = 0; at_us < 5 * kPeriod; at_us += kPeriod) {
     const double angle_rad = 1e-7 * static_cast<double>(at_us);
@@ -82,13 +82,4 @@ void what_comes_in_time_stays(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_turns_evenly_is_where_it_is),
-      cmocka_unit_test(what_swings_lags_little),
-      cmocka_unit_test(a_reading_that_does_not_come_changes_nothing),
-      cmocka_unit_test(what_is_not_known_is_as_it_is_shown),
-      cmocka_unit_test(what_comes_in_time_stays),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -24,7 +24,7 @@ const ExcavatorProfile& profile() {
 }
 double travel() { return profile().valve.spool_travel_m; }
 
-void duty_follows_the_profiles_table(void**) {
+TEST(duty_follows_the_profiles_table) {
   const Gated result = gate(profile(), {}, true, {travel(), -0.5 * travel(), 0.0}, kLong_s);
   assert_true(result.enable);
   assert_near(result.duty_ratio[0], 1.0, 1e-12);
@@ -33,7 +33,7 @@ void duty_follows_the_profiles_table(void**) {
 }
 
 /// A machine without a swing drive has no fourth spool, whatever is asked of one.
-void a_drive_that_is_not_there_stays_neutral(void**) {
+TEST(a_drive_that_is_not_there_stays_neutral) {
   const Gated result = gate(profile(), {}, true, {0.0, 0.0, travel(), travel()}, kLong_s);
   assert_true(result.enable);
   assert_near(result.duty_ratio[2], 1.0, 1e-12);
@@ -41,7 +41,7 @@ void a_drive_that_is_not_there_stays_neutral(void**) {
 }
 
 /// A bank may be shorter than what its drives are kept in: the rest is neither read nor written.
-void nothing_behind_the_last_drive_is_touched(void**) {
+TEST(nothing_behind_the_last_drive_is_touched) {
   const ExcavatorBank bank = excavator_bank(profile());
   const DriveRows two{bank.rows().begin(), 2};
   const std::array<double, 3> spool_m = {travel(), travel(),
@@ -57,7 +57,7 @@ void nothing_behind_the_last_drive_is_touched(void**) {
   assert_false(opening[2].intact());
 }
 
-void a_spool_hardly_open_stays_neutral(void**) {
+TEST(a_spool_hardly_open_stays_neutral) {
   const double threshold = profile().control.spool_threshold;
   for (const double sign : {1.0, -1.0}) {
     const double edge_m = sign * threshold * travel();
@@ -69,7 +69,7 @@ void a_spool_hardly_open_stays_neutral(void**) {
   }
 }
 
-void positions_beyond_the_travel_are_clamped(void**) {
+TEST(positions_beyond_the_travel_are_clamped) {
   const Gated result = gate(profile(), {}, true, {9.0 * travel(), -9.0 * travel(), 0.0}, kLong_s);
   assert_near(result.duty_ratio[0], 1.0, 1e-12);
   assert_near(result.duty_ratio[1], -1.0, 1e-12);
@@ -78,7 +78,7 @@ void positions_beyond_the_travel_are_clamped(void**) {
 }
 
 // Whatever the table says, a valve is driven neither beyond its range nor the other way.
-void duties_beyond_the_range_are_clamped(void**) {
+TEST(duties_beyond_the_range_are_clamped) {
   ExcavatorProfile wild = profile();
   const double opening[] = {0.0, 1.0};
   const double duty[] = {-1.0, 2.0};
@@ -89,7 +89,7 @@ void duties_beyond_the_range_are_clamped(void**) {
   assert_near(result.duty_ratio[2], 0.0, 0.0);
 }
 
-void changes_are_limited_in_rate(void**) {
+TEST(changes_are_limited_in_rate) {
   const double step = profile().control.spool_rate_ps * 0.01;
   const Gated first = gate(profile(), {}, true, {travel(), 0.0, 0.0}, 0.01);
   assert_near(first.state.opening[0].value(), step, 1e-12);
@@ -105,7 +105,7 @@ void changes_are_limited_in_rate(void**) {
 }
 
 /// Towards neutral a spool goes at once; a reversal opens from neutral.
-void closing_is_never_delayed(void**) {
+TEST(closing_is_never_delayed) {
   GateState open;
   open.opening = {Guarded(1.0), Guarded(-1.0), Guarded(1.0)};
   const double step = profile().control.spool_rate_ps * 0.01;
@@ -121,7 +121,7 @@ void closing_is_never_delayed(void**) {
 }
 
 /// However little it is open: what is open may stay, the other side may not open.
-void the_least_opening_has_its_side(void**) {
+TEST(the_least_opening_has_its_side) {
   constexpr double kLeast = 1e-200;  // The square of it is 0.
   GateState open;
   open.opening = {Guarded(kLeast), Guarded(-kLeast), Guarded(kLeast)};
@@ -133,7 +133,7 @@ void the_least_opening_has_its_side(void**) {
 }
 
 /// A spool that is to be closed has duty 0, whatever the threshold.
-void closed_is_duty_zero(void**) {
+TEST(closed_is_duty_zero) {
   ExcavatorProfile keen = profile();
   keen.control.spool_threshold = 0.0;
   const Gated result = gate(keen, {}, true, {0.0, -0.0, 0.0}, 0.01);
@@ -143,7 +143,7 @@ void closed_is_duty_zero(void**) {
 }
 
 /// Neutral knows no rate: not active closes everything in the same cycle.
-void not_active_is_neutral_at_once(void**) {
+TEST(not_active_is_neutral_at_once) {
   GateState open;
   open.opening = {Guarded(1.0), Guarded(-1.0), Guarded(0.5)};
   const Gated result = gate(profile(), open, false, {travel(), travel(), travel()}, 0.01);
@@ -154,7 +154,7 @@ void not_active_is_neutral_at_once(void**) {
   }
 }
 
-void what_is_no_number_is_refused(void**) {
+TEST(what_is_no_number_is_refused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, infinity, -infinity}) {
@@ -176,7 +176,7 @@ void what_is_no_number_is_refused(void**) {
 }
 
 /// Whichever bit of whichever stored opening: refused in this cycle, and nothing of it is kept.
-void a_flipped_bit_is_refused(void**) {
+TEST(a_flipped_bit_is_refused) {
   for (unsigned i = 0; i < kAxisCount; ++i) {
     for (std::size_t bit = 0; bit < 8 * sizeof(GateState) / kDriveCount; ++bit) {
       GateState open;
@@ -206,7 +206,7 @@ struct Tried {
 };
 
 /// No table, no threshold: nothing is known of the valve.
-void duties_that_are_tried_pass_as_they_are(void**) {
+TEST(duties_that_are_tried_pass_as_they_are) {
   Tried tried;
   const GateResult result = tried.step({0.001, -0.1, 0.9, 0.9});
   assert_true(result.enable);
@@ -223,7 +223,7 @@ void duties_that_are_tried_pass_as_they_are(void**) {
 }
 
 /// A quarter a cycle, so that a step is one; down at once, through zero as from zero.
-void duties_that_are_tried_may_step(void**) {
+TEST(duties_that_are_tried_may_step) {
   Tried tried;
   static_cast<void>(tried.step({0.6, -0.6, 0.2}, 0.01));
   assert_near(tried.duty_ratio[0], 0.25, 1e-12);
@@ -237,7 +237,7 @@ void duties_that_are_tried_may_step(void**) {
   assert_near(tried.duty_ratio[1], -0.5, 1e-12);
 }
 
-void duties_that_are_tried_are_refused_as_others(void**) {
+TEST(duties_that_are_tried_are_refused_as_others) {
   Tried passive;
   passive.duty_ratio.fill(0.5);
   assert_false(passive.step({0.5, 0.5, 0.5}, kLong_s, false).enable);
@@ -254,7 +254,7 @@ void duties_that_are_tried_are_refused_as_others(void**) {
 }
 
 /// Neutral needs nothing of what is stored.
-void a_flipped_bit_does_not_matter_at_rest(void**) {
+TEST(a_flipped_bit_does_not_matter_at_rest) {
   GateState open;
   test::flip_bit(open.opening[1], 3);
   const Gated result = gate(profile(), open, false, {0.0, 0.0, 0.0}, 0.01);
@@ -263,7 +263,7 @@ void a_flipped_bit_does_not_matter_at_rest(void**) {
 }
 
 /// Duties of one drive by its two tables; the others keep to the whole valve's.
-void each_side_has_its_own_table(void**) {
+TEST(each_side_has_its_own_table) {
   ExcavatorProfile two = profile();
   const SpoolAnswers answer = test::two_sides();
   two.valve.answer[kBoom].extend.spool_to_duty = answer.extend.spool_to_duty;
@@ -283,26 +283,4 @@ void each_side_has_its_own_table(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(duty_follows_the_profiles_table),
-      cmocka_unit_test(a_drive_that_is_not_there_stays_neutral),
-      cmocka_unit_test(nothing_behind_the_last_drive_is_touched),
-      cmocka_unit_test(a_spool_hardly_open_stays_neutral),
-      cmocka_unit_test(positions_beyond_the_travel_are_clamped),
-      cmocka_unit_test(duties_beyond_the_range_are_clamped),
-      cmocka_unit_test(changes_are_limited_in_rate),
-      cmocka_unit_test(closing_is_never_delayed),
-      cmocka_unit_test(the_least_opening_has_its_side),
-      cmocka_unit_test(closed_is_duty_zero),
-      cmocka_unit_test(not_active_is_neutral_at_once),
-      cmocka_unit_test(what_is_no_number_is_refused),
-      cmocka_unit_test(a_flipped_bit_is_refused),
-      cmocka_unit_test(a_flipped_bit_does_not_matter_at_rest),
-      cmocka_unit_test(each_side_has_its_own_table),
-      cmocka_unit_test(duties_that_are_tried_pass_as_they_are),
-      cmocka_unit_test(duties_that_are_tried_may_step),
-      cmocka_unit_test(duties_that_are_tried_are_refused_as_others),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -13,7 +13,7 @@ using namespace graben;
 
 const GradeDesign& design() { return test::dozer().profile.grade; }
 
-void away_from_corners_it_goes_through_the_points(void**) {
+TEST(away_from_corners_it_goes_through_the_points) {
   const GradeProfile profile(design());
   for (int i = 0; i + 1 < design().count; ++i) {
     const GradePoint& from = design().point[static_cast<unsigned>(i)];
@@ -26,7 +26,7 @@ void away_from_corners_it_goes_through_the_points(void**) {
 }
 
 /// A parabola of this length leaves the corner by a quarter of kink times half length.
-void corners_are_parabolas(void**) {
+TEST(corners_are_parabolas) {
   const GradeDesign bent = test::bend(-0.4, 0.3);
   const GradeProfile profile(bent);
   assert_near(profile.at(9.7).height_m, 0.0, 1e-12);
@@ -37,7 +37,7 @@ void corners_are_parabolas(void**) {
   assert_near(profile.at(10.3).slope, -0.4, 1e-12);
 }
 
-void slope_is_the_derivative_and_has_no_step(void**) {
+TEST(slope_is_the_derivative_and_has_no_step) {
   const GradeProfile profile(design());
   double last = profile.at(0.5).slope;
   for (double x_m = 0.5; x_m < 26.5; x_m += 0.001) {
@@ -49,14 +49,14 @@ void slope_is_the_derivative_and_has_no_step(void**) {
   }
 }
 
-void beyond_its_ends_it_goes_on_level(void**) {
+TEST(beyond_its_ends_it_goes_on_level) {
   const GradeProfile profile(test::bend(-0.1, 0.3));
   assert_near(profile.at(-50.0).height_m, 0.0, 1e-12);
   assert_near(profile.at(80.0).height_m, -5.0, 1e-12);
   assert_near(profile.at(80.0).slope, 0.0, 1e-12);
 }
 
-void the_plane_lies_under_it(void**) {
+TEST(the_plane_lies_under_it) {
   GradeDesign tilted = design();
   tilted.plane_height_m = 1.5;
   tilted.plane_slope = 0.02;
@@ -68,7 +68,7 @@ void the_plane_lies_under_it(void**) {
   }
 }
 
-void the_error_is_along_the_normal(void**) {
+TEST(the_error_is_along_the_normal) {
   const GradeProfile profile(test::bend(-0.75, 0.3));
   assert_near(grade_error_m(profile, 5.0, 0.1), 0.1, 1e-12);
   // 3-4-5: a slope of 3/4 makes 4/5 of the height.
@@ -76,14 +76,14 @@ void the_error_is_along_the_normal(void**) {
   assert_near(grade_error_m(profile, 30.0, below_m), -0.08, 1e-12);
 }
 
-void a_design_without_points_is_the_plane(void**) {
+TEST(a_design_without_points_is_the_plane) {
   GradeDesign empty;
   empty.plane_height_m = 2.0;
   assert_near(GradeProfile(empty).at(7.0).height_m, 2.0, 0.0);
 }
 
 /// A pass goes no lower than it may, along the plane.
-void a_floor_holds_it_up(void**) {
+TEST(a_floor_holds_it_up) {
   GradeDesign tilted = design();
   tilted.plane_slope = 0.02;
   const GradeProfile whole(tilted);
@@ -112,7 +112,7 @@ GradeDesign with_heights(const std::array<double, 101>& height_m) {
 }
 
 /// Between the heights too, but for the ends, where it goes on level.
-void heights_on_a_grid_are_gone_through(void**) {
+TEST(heights_on_a_grid_are_gone_through) {
   const auto height_m = on_grid(0.1);
   const GradeDesign grade = with_heights(height_m);
   assert_near(grade.begin_m(), 2.0, 0.0);
@@ -135,7 +135,7 @@ void heights_on_a_grid_are_gone_through(void**) {
 }
 
 /// As of points: the slope has no step, and plane and floor hold.
-void heights_have_a_plane_and_a_floor(void**) {
+TEST(heights_have_a_plane_and_a_floor) {
   const auto height_m = on_grid(0.1);
   GradeDesign grade = with_heights(height_m);
   grade.plane_height_m = 1.0;
@@ -154,18 +154,4 @@ void heights_have_a_plane_and_a_floor(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(away_from_corners_it_goes_through_the_points),
-      cmocka_unit_test(corners_are_parabolas),
-      cmocka_unit_test(slope_is_the_derivative_and_has_no_step),
-      cmocka_unit_test(beyond_its_ends_it_goes_on_level),
-      cmocka_unit_test(the_plane_lies_under_it),
-      cmocka_unit_test(the_error_is_along_the_normal),
-      cmocka_unit_test(a_design_without_points_is_the_plane),
-      cmocka_unit_test(a_floor_holds_it_up),
-      cmocka_unit_test(heights_on_a_grid_are_gone_through),
-      cmocka_unit_test(heights_have_a_plane_and_a_floor),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

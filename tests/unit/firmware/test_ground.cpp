@@ -22,7 +22,7 @@ GroundMap cut(const GradeProfile& design, double from_m, double to_m, double abo
   return ground;
 }
 
-void behind_the_edge_it_is_what_was_cut_before_it_the_design(void**) {
+TEST(behind_the_edge_it_is_what_was_cut_before_it_the_design) {
   const GradeProfile design(test::dozer().profile.grade);
   const GroundMap ground = cut(design, 2.0, 8.0, -0.01);
   for (double x_m = 2.5; x_m < 7.8; x_m += 0.05) {
@@ -32,7 +32,7 @@ void behind_the_edge_it_is_what_was_cut_before_it_the_design(void**) {
   assert_near(ground.height_m(1.0, design), 0.0, 1e-12);
 }
 
-void what_is_cut_stays_cut(void**) {
+TEST(what_is_cut_stays_cut) {
   const GradeProfile design(test::level(-0.1));
   GroundMap ground = cut(design, 0.0, 4.0);
   for (double x_m = 4.0; x_m > 2.0; x_m -= 0.02) {
@@ -50,7 +50,7 @@ void what_is_cut_stays_cut(void**) {
 }
 
 /// The blade is carried: what lies below it is the line that the machine stands on.
-void in_the_air_nothing_is_cut(void**) {
+TEST(in_the_air_nothing_is_cut) {
   const GradeProfile design(test::level(0.0));
   GroundMap ground = cut(design, 0.0, 3.0);
   for (double x_m = 3.0; x_m < 6.0; x_m += 0.02) {
@@ -59,7 +59,7 @@ void in_the_air_nothing_is_cut(void**) {
   assert_near(ground.height_m(5.0, design), 0.02, 1e-9);
 }
 
-void a_jump_starts_it_afresh(void**) {
+TEST(a_jump_starts_it_afresh) {
   const GradeProfile design(test::level(0.0));
   GroundMap ground = cut(design, 0.0, 3.0, -0.05);
   ground.pass(50.0, 1.0, design, 47.8, 0.4, 0.1);
@@ -68,7 +68,7 @@ void a_jump_starts_it_afresh(void**) {
   assert_true(std::isfinite(ground.height_m(0.0, design)));
 }
 
-void it_remembers_as_far_as_the_tracks_reach(void**) {
+TEST(it_remembers_as_far_as_the_tracks_reach) {
   const GradeProfile design(test::level(-0.1));
   const GroundMap ground = cut(design, 0.0, 40.0);
   assert_near(ground.height_m(40.0 - GroundMap::kLength_m + 0.2, design), -0.1, 1e-9);
@@ -77,7 +77,7 @@ void it_remembers_as_far_as_the_tracks_reach(void**) {
 }
 
 /// For another pass the design lies before the edge, and behind it what was left.
-void turned_back_it_forgets_only_what_lies_ahead(void**) {
+TEST(turned_back_it_forgets_only_what_lies_ahead) {
   const GradeProfile design(test::level(-0.1));
   GroundMap ground = cut(design, 0.0, 12.0, 0.05);
   assert_near(ground.height_m(8.0, design), -0.05, 1e-9);
@@ -90,7 +90,7 @@ void turned_back_it_forgets_only_what_lies_ahead(void**) {
 
 /// A pass begins with the blade on its way down to ground that an earlier one has left: that is
 /// where it was, however low the blade hangs over it.
-void a_blade_on_its_way_down_makes_no_ground(void**) {
+TEST(a_blade_on_its_way_down_makes_no_ground) {
   const GradeProfile design(test::level(-0.1));
   GroundMap ground = cut(design, 0.0, 12.0, 0.05);
   ground.turn_back(6.0);
@@ -112,7 +112,7 @@ void a_blade_on_its_way_down_makes_no_ground(void**) {
 }
 
 /// On level ground at its height, on a slope along it.
-void on_a_plane_it_stands_along_it(void**) {
+TEST(on_a_plane_it_stands_along_it) {
   for (const double slope : {-0.3, 0.0, 0.2}) {
     GradeDesign plane = test::level(0.0);
     plane.plane_slope = slope;
@@ -133,7 +133,7 @@ void on_a_plane_it_stands_along_it(void**) {
 }
 
 /// Forces and moments over the wheels, worked out by themselves.
-void where_it_stands_the_wheels_carry_it(void**) {
+TEST(where_it_stands_the_wheels_carry_it) {
   const GradeProfile design(test::dozer().profile.grade);
   Stand stand{0.0, 0.0};
   const double weight_n = body().mass_kg * 9.80665;
@@ -160,12 +160,12 @@ void where_it_stands_the_wheels_carry_it(void**) {
   assert_true(unrested <= 1);
 }
 
-void the_shipped_design_is_reached_all_the_way(void**) {
+TEST(the_shipped_design_is_reached_all_the_way) {
   assert_true(grade_reach(test::dozer().profile, 0.0, 27.0).reached);
 }
 
 /// The same trench from its other end, where the slope that the body climbs is the steeper one.
-void a_design_out_of_reach_is_named_where_it_is(void**) {
+TEST(a_design_out_of_reach_is_named_where_it_is) {
   DozerProfile mirrored = test::dozer().profile;
   const GradeDesign given = mirrored.grade;
   for (int i = 0; i < given.count; ++i) {
@@ -178,7 +178,7 @@ void a_design_out_of_reach_is_named_where_it_is(void**) {
   assert_true(reach.position_m > 0.0 && reach.position_m < 27.0);
 }
 
-void without_wheels_below_it_comes_down(void**) {
+TEST(without_wheels_below_it_comes_down) {
   const GradeProfile design(test::level(0.0));
   Stand stand{3.0, 0.5};
   for (int n = 0; n < 30; ++n) {
@@ -188,7 +188,7 @@ void without_wheels_below_it_comes_down(void**) {
   assert_near(stand.pitch_rad, 0.0, 1e-6);
 }
 
-void noise_of_the_position_is_left_behind(void**) {
+TEST(noise_of_the_position_is_left_behind) {
   PositionState state;
   double largest_m = 0.0;
   for (int n = 0; n < 400; ++n) {
@@ -202,21 +202,4 @@ void noise_of_the_position_is_left_behind(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(behind_the_edge_it_is_what_was_cut_before_it_the_design),
-      cmocka_unit_test(what_is_cut_stays_cut),
-      cmocka_unit_test(in_the_air_nothing_is_cut),
-      cmocka_unit_test(a_jump_starts_it_afresh),
-      cmocka_unit_test(it_remembers_as_far_as_the_tracks_reach),
-      cmocka_unit_test(turned_back_it_forgets_only_what_lies_ahead),
-      cmocka_unit_test(a_blade_on_its_way_down_makes_no_ground),
-      cmocka_unit_test(on_a_plane_it_stands_along_it),
-      cmocka_unit_test(where_it_stands_the_wheels_carry_it),
-      cmocka_unit_test(the_shipped_design_is_reached_all_the_way),
-      cmocka_unit_test(a_design_out_of_reach_is_named_where_it_is),
-      cmocka_unit_test(without_wheels_below_it_comes_down),
-      cmocka_unit_test(noise_of_the_position_is_left_behind),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

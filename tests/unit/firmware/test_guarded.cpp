@@ -29,7 +29,7 @@ void every_flip_is_found(const T& value) {
   assert_true(guarded.intact());
 }
 
-void every_bit_is_guarded(void**) {
+TEST(every_bit_is_guarded) {
   for (const double value : {0.0, -0.0, 1.0, -0.37, std::numeric_limits<double>::max(),
                              std::numeric_limits<double>::quiet_NaN()}) {
     every_flip_is_found(value);
@@ -39,7 +39,7 @@ void every_bit_is_guarded(void**) {
 }
 
 /// Memory that was wiped, with zeros or with ones, is no stored value.
-void wiped_memory_is_found(void**) {
+TEST(wiped_memory_is_found) {
   for (const int wipe : {0x00, 0xFF}) {
     Guarded<double> guarded(0.5);
     std::memset(static_cast<void*>(&guarded), wipe, sizeof guarded);
@@ -47,7 +47,7 @@ void wiped_memory_is_found(void**) {
   }
 }
 
-void what_is_stored_is_read(void**) {
+TEST(what_is_stored_is_read) {
   Guarded<double> guarded;
   assert_true(guarded.intact());
   assert_near(guarded.value(), 0.0, 0.0);
@@ -64,7 +64,7 @@ void what_is_stored_is_read(void**) {
 }
 
 /// A copy keeps the damage; a new value ends it.
-void damage_is_not_copied_away(void**) {
+TEST(damage_is_not_copied_away) {
   Guarded<double> guarded(0.5);
   test::flip_bit(guarded, 0);
   const Guarded<double> copy = guarded;
@@ -75,12 +75,4 @@ void damage_is_not_copied_away(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(every_bit_is_guarded),
-      cmocka_unit_test(wiped_memory_is_found),
-      cmocka_unit_test(what_is_stored_is_read),
-      cmocka_unit_test(damage_is_not_copied_away),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -50,7 +50,7 @@ struct Hand {
   }
 };
 
-void at_rest_nothing_is_wanted(void**) {
+TEST(at_rest_nothing_is_wanted) {
   for (const Task task : {Task::kJog, Task::kCoordinated}) {
     Hand hand(task);
     hand.run(0.2);
@@ -60,7 +60,7 @@ void at_rest_nothing_is_wanted(void**) {
 }
 
 /// A lever that is held when the task begins has to come to rest first.
-void a_held_lever_moves_nothing(void**) {
+TEST(a_held_lever_moves_nothing) {
   for (const Task task : {Task::kJog, Task::kCoordinated}) {
     Hand hand(task);
     hand.state = {};
@@ -76,7 +76,7 @@ void a_held_lever_moves_nothing(void**) {
 }
 
 /// What the pump's flow makes of the cap side: 0.158, 0.232, 0.316 m/s, reached by 0.5 m/s2.
-void full_lever_is_what_the_pump_gives(void**) {
+TEST(full_lever_is_what_the_pump_gives) {
   const double most_mps[] = {0.158, 0.232, 0.316};
   for (int axis = 0; axis < kAxisCount; ++axis) {
     for (const double side : {1.0, -1.0}) {
@@ -95,7 +95,7 @@ void full_lever_is_what_the_pump_gives(void**) {
   }
 }
 
-void the_operators_speed_counts(void**) {
+TEST(the_operators_speed_counts) {
   for (const Task task : {Task::kJog, Task::kCoordinated}) {
     Hand whole(task);
     Hand half(task);
@@ -111,7 +111,7 @@ void the_operators_speed_counts(void**) {
 }
 
 /// Up, forward, opening; a tenth of a second in the direction asked for, and in no other.
-void teeth_go_where_the_levers_say(void**) {
+TEST(teeth_go_where_the_levers_say) {
   for (const double side : {1.0, -1.0}) {
     for (const unsigned lever : {0U, 1U, 2U}) {
       Hand hand(Task::kCoordinated);
@@ -131,7 +131,7 @@ void teeth_go_where_the_levers_say(void**) {
 }
 
 /// Both together are no faster than one, from the first cycle on in one direction.
-void a_diagonal_is_a_line(void**) {
+TEST(a_diagonal_is_a_line) {
   Hand hand(Task::kCoordinated);
   hand.ask.lever_ratio = {1.0, 1.0, 0.0, 0.0};
   for (int n = 0; n < 150; ++n) {
@@ -143,7 +143,7 @@ void a_diagonal_is_a_line(void**) {
 }
 
 /// What lambda slows waits where it is: the plan goes no further than the machine can.
-void the_plan_waits_for_the_machine(void**) {
+TEST(the_plan_waits_for_the_machine) {
   Hand hand(Task::kCoordinated);
   hand.followed = 0.3;
   hand.ask.lever_ratio[1] = 1.0;
@@ -164,7 +164,7 @@ void the_plan_waits_for_the_machine(void**) {
 }
 
 /// One drive's end is no other's.
-void a_drive_slows_before_its_own_end(void**) {
+TEST(a_drive_slows_before_its_own_end) {
   Hand hand(Task::kJog);
   hand.strokes_m[kBoom] = profile().geometry.cylinder[kBoom].stroke_m - 0.05;
   hand.ask.lever_ratio = {1.0, 0.0, -0.5, 0.0};
@@ -181,7 +181,7 @@ void a_drive_slows_before_its_own_end(void**) {
 }
 
 /// Forward until an arm's end: all slow, on their line; back is free.
-void a_line_ends_before_an_end(void**) {
+TEST(a_line_ends_before_an_end) {
   Hand hand(Task::kCoordinated);
   hand.ask.lever_ratio[1] = 1.0;
   hand.run(12.0);
@@ -197,7 +197,7 @@ void a_line_ends_before_an_end(void**) {
 }
 
 /// Where boom and arm cannot reach: stops, names a drive, and comes back.
-void beyond_reach_there_is_no_pose(void**) {
+TEST(beyond_reach_there_is_no_pose) {
   Hand hand(Task::kCoordinated);
   hand.ask.lever_ratio[1] = 1.0;
   hand.run(1.0);
@@ -210,7 +210,7 @@ void beyond_reach_there_is_no_pose(void**) {
 }
 
 /// What stands in memory is no more than a full lever.
-void no_stored_speed_is_too_fast(void**) {
+TEST(no_stored_speed_is_too_fast) {
   Hand hand(Task::kJog);
   hand.state.speed.setConstant(1e9);
   hand.step();
@@ -219,19 +219,4 @@ void no_stored_speed_is_too_fast(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(at_rest_nothing_is_wanted),
-      cmocka_unit_test(a_held_lever_moves_nothing),
-      cmocka_unit_test(full_lever_is_what_the_pump_gives),
-      cmocka_unit_test(the_operators_speed_counts),
-      cmocka_unit_test(teeth_go_where_the_levers_say),
-      cmocka_unit_test(a_diagonal_is_a_line),
-      cmocka_unit_test(the_plan_waits_for_the_machine),
-      cmocka_unit_test(a_drive_slows_before_its_own_end),
-      cmocka_unit_test(a_line_ends_before_an_end),
-      cmocka_unit_test(beyond_reach_there_is_no_pose),
-      cmocka_unit_test(no_stored_speed_is_too_fast),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -25,7 +25,7 @@ OilState settled(double load_n) {
 
 /// Opened for the load that is left at rest and for the path's push, not for what the boom's own
 /// swinging adds; a line that does not give way changes nothing.
-void a_giving_line_is_opened_for_load_and_push(void**) {
+TEST(a_giving_line_is_opened_for_load_and_push) {
   const Eigen::Matrix2d inertia_kg = Eigen::Vector2d(1e5, 2e4).asDiagonal();
   HeldLoad held;
   OilState oil = settled(200e3);
@@ -60,7 +60,7 @@ void a_giving_line_is_opened_for_load_and_push(void**) {
 }
 
 /// A force beyond the one that the valve is opened for slows the flow that the observer expects.
-void the_observer_knows_a_flow_that_gives_way(void**) {
+TEST(the_observer_knows_a_flow_that_gives_way) {
   const OilGains gains{OilDesign{}};
   const KinematicState now = ExcavatorKinematics(machine().geometry).state({0.6, 0.7, 0.5});
   std::array<LoadState, kDriveCount> load{};
@@ -87,7 +87,7 @@ void the_observer_knows_a_flow_that_gives_way(void**) {
 
 /// A drive that stands since its line does not press as hard as its load yet shows no flow that is
 /// missing: what else would be taken for that comes on top once it sets off. The other one does.
-void what_stands_shows_no_missing_flow(void**) {
+TEST(what_stands_shows_no_missing_flow) {
   const OilGains gains{OilDesign{}};
   const KinematicState now = ExcavatorKinematics(machine().geometry).state({0.6, 0.7, 0.5});
   std::array<LoadState, kDriveCount> load{};
@@ -115,7 +115,7 @@ void what_stands_shows_no_missing_flow(void**) {
 
 /// A drive that has come round and stands: its edge is looked for at once, and no faster than its
 /// line can show by its pressure what the spool has reached.
-void an_edge_is_looked_for_at_once_and_steadily(void**) {
+TEST(an_edge_is_looked_for_at_once_and_steadily) {
   const ExcavatorBank bank = excavator_bank(machine());
   DriveRow boom = bank.row[0];
   boom.spool.bypass_closes_at = 0.25;
@@ -151,12 +151,4 @@ void an_edge_is_looked_for_at_once_and_steadily(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_giving_line_is_opened_for_load_and_push),
-      cmocka_unit_test(the_observer_knows_a_flow_that_gives_way),
-      cmocka_unit_test(what_stands_shows_no_missing_flow),
-      cmocka_unit_test(an_edge_is_looked_for_at_once_and_steadily),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -13,20 +13,20 @@ constexpr double kPerRpm = 6.28318530717958647693 / 60.0;
 const DozerProfile& profile() { return test::dozer().profile; }
 
 /// The paper: 1.8 m/s, 84.6 L/min at 1500 rpm.
-void the_papers_figures(void**) {
+TEST(the_papers_figures) {
   assert_near(track_speed_mps(profile().hst, 1500 * kPerRpm, 1.0, 1.0), 0.6298, 1e-4);
   assert_near(track_speed_max_mps(profile().hst, 1500 * kPerRpm), 1.80, 0.005);
   assert_near(available_flow_m3ps(profile().implement, 1500 * kPerRpm) * 60e3, 84.6, 1e-9);
 }
 
-void flow_is_that_of_the_valve_where_the_pump_has_more(void**) {
+TEST(flow_is_that_of_the_valve_where_the_pump_has_more) {
   assert_near(available_flow_m3ps(profile().implement, 4000 * kPerRpm),
               profile().implement.valve_flow_max_m3ps, 0.0);
   assert_near(available_flow_m3ps(profile().implement, -1.0), 0.0, 0.0);
 }
 
 /// (9) of its inverse is the speed that was asked for, the pump at its end before the motor moves.
-void the_inverse_is_the_inverse(void**) {
+TEST(the_inverse_is_the_inverse) {
   for (const double rpm : {900.0, 1500.0, 2200.0}) {
     const double most_mps = track_speed_max_mps(profile().hst, rpm * kPerRpm);
     for (double share = -1.0; share <= 1.0; share += 0.05) {
@@ -38,7 +38,7 @@ void the_inverse_is_the_inverse(void**) {
   }
 }
 
-void beyond_the_fastest_it_gets_the_fastest(void**) {
+TEST(beyond_the_fastest_it_gets_the_fastest) {
   for (const double sign : {-1.0, 1.0}) {
     const Displacements at = displacements_for(profile().hst, 157.0, sign * 99.0);
     assert_near(at.pump_ratio, sign, 0.0);
@@ -46,7 +46,7 @@ void beyond_the_fastest_it_gets_the_fastest(void**) {
   }
 }
 
-void an_engine_at_rest_drives_nothing(void**) {
+TEST(an_engine_at_rest_drives_nothing) {
   const Displacements at = displacements_for(profile().hst, 0.0, 1.0);
   assert_near(at.pump_ratio, 0.0, 0.0);
   assert_near(at.motor_ratio, 1.0, 0.0);
@@ -54,7 +54,7 @@ void an_engine_at_rest_drives_nothing(void**) {
 }
 
 /// (7): each way with the area that the oil enters, both cylinders.
-void inflow_is_that_of_the_side_it_enters(void**) {
+TEST(inflow_is_that_of_the_side_it_enters) {
   assert_near(inflow_m3ps(profile().blade, 0.1), 0.1 * 2 * 0.25 * 3.14159265358979 * 0.0121, 1e-12);
   assert_near(inflow_m3ps(profile().blade, -0.1),
               0.1 * 2 * 0.25 * 3.14159265358979 * (0.0121 - 0.0036), 1e-12);
@@ -66,7 +66,7 @@ void inflow_is_that_of_the_side_it_enters(void**) {
 }
 
 /// (8), (13): in a left turn the right track is the faster one and sets the limit.
-void a_turn_takes_speed_from_the_outer_track(void**) {
+TEST(a_turn_takes_speed_from_the_outer_track) {
   const auto speeds = track_speeds_mps(profile().body, 1.0, 0.5);
   assert_near(speeds[kLeft], 1.0 - 0.45, 1e-12);
   assert_near(speeds[kRight], 1.0 + 0.45, 1e-12);
@@ -91,14 +91,14 @@ double settled_speed_mps(double wanted_mps, int cycles) {
   return speed_mps;
 }
 
-void the_integral_makes_up_for_losses(void**) {
+TEST(the_integral_makes_up_for_losses) {
   assert_near(settled_speed_mps(1.2, 500), 1.2, 1e-3);
   assert_near(settled_speed_mps(-0.5, 500), -0.5, 1e-3);
 }
 
 /// The usual lag behind a speed that falls, of oil and ground, is nothing to be made up for: the
 /// machine would brake harder than it is told to.
-void the_lag_of_oil_is_not_made_up_for(void**) {
+TEST(the_lag_of_oil_is_not_made_up_for) {
   TrackState state;
   state.last_wanted_mps = 1.6;
   state.expected_mps = 1.6;
@@ -117,7 +117,7 @@ void the_lag_of_oil_is_not_made_up_for(void**) {
 }
 
 /// What can't be had must not wind up.
-void out_of_reach_the_integral_stands_still(void**) {
+TEST(out_of_reach_the_integral_stands_still) {
   TrackState state;
   for (int n = 0; n < 1000; ++n) {
     state = control_track(profile(), state, 5.0, 1.6, 157.08, 0.01).state;
@@ -127,18 +127,4 @@ void out_of_reach_the_integral_stands_still(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_papers_figures),
-      cmocka_unit_test(flow_is_that_of_the_valve_where_the_pump_has_more),
-      cmocka_unit_test(the_inverse_is_the_inverse),
-      cmocka_unit_test(beyond_the_fastest_it_gets_the_fastest),
-      cmocka_unit_test(an_engine_at_rest_drives_nothing),
-      cmocka_unit_test(inflow_is_that_of_the_side_it_enters),
-      cmocka_unit_test(a_turn_takes_speed_from_the_outer_track),
-      cmocka_unit_test(the_integral_makes_up_for_losses),
-      cmocka_unit_test(the_lag_of_oil_is_not_made_up_for),
-      cmocka_unit_test(out_of_reach_the_integral_stands_still),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

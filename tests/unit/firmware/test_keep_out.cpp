@@ -115,7 +115,7 @@ FenceGap gap(const Fence& fence, const MachineMotion& motion, MachinePart part,
 }
 
 /// Never more than it is, and not much less.
-void no_distance_is_told_too_large(void**) {
+TEST(no_distance_is_told_too_large) {
   double shortest_m = 0.0;
   int near = 0;
   for (std::uint64_t seed = 0; seed < kPlaces; ++seed) {
@@ -139,7 +139,7 @@ void no_distance_is_told_too_large(void**) {
 
 /// Never slower than the distance falls, and mostly as fast: where the plane between both is a face
 /// of the bucket it turns with it.
-void it_closes_as_fast_as_the_distance_falls(void**) {
+TEST(it_closes_as_fast_as_the_distance_falls) {
   constexpr double kStep_s = 1e-6;
   int compared = 0;
   int alike = 0;
@@ -170,7 +170,7 @@ void it_closes_as_fast_as_the_distance_falls(void**) {
 }
 
 /// By hand: the teeth 0.5 m from a box's face, then over its corner.
-void faces_and_corners(void**) {
+TEST(faces_and_corners) {
   const DriveVector drive(0.475, 0.565, 0.4375, 0.0);
   const MachineMotion motion = machine().points(drive);
   double lowest_m = kFar_m;
@@ -192,11 +192,4 @@ void faces_and_corners(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(no_distance_is_told_too_large),
-      cmocka_unit_test(it_closes_as_fast_as_the_distance_falls),
-      cmocka_unit_test(faces_and_corners),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -32,7 +32,7 @@ void over_the_whole_range(Check check) {
   }
 }
 
-void strokes_to_pose_and_back(void**) {
+TEST(strokes_to_pose_and_back) {
   over_the_whole_range([](const Eigen::Vector3d& strokes) {
     const JointResult joints = machine().joints_from_strokes(strokes);
     assert_int_equal(joints.status, ReachStatus::kOk);
@@ -50,7 +50,7 @@ Eigen::Vector3d tip_at(const Eigen::Vector3d& strokes) {
   return {tip.x_m, tip.y_m, tip.attitude_rad};
 }
 
-void jacobian_is_the_slope_of_the_pose(void**) {
+TEST(jacobian_is_the_slope_of_the_pose) {
   constexpr double kStep_m = 1e-6;
   over_the_whole_range([](const Eigen::Vector3d& strokes) {
     Eigen::Vector3d inside = strokes;
@@ -77,7 +77,7 @@ void jacobian_is_the_slope_of_the_pose(void**) {
 }
 
 /// Pins by hand: all joints at zero put the links in one horizontal line, the attitude backwards.
-void straight_out_is_the_sum_of_the_links(void**) {
+TEST(straight_out_is_the_sum_of_the_links) {
   const ExcavatorGeometry& geometry = machine().geometry();
   const TipPose pose = machine().pose_from_joints(Eigen::Vector3d::Zero());
   assert_near(pose.x_m, geometry.boom_length_m + geometry.arm_length_m + geometry.bucket_length_m,
@@ -87,7 +87,7 @@ void straight_out_is_the_sum_of_the_links(void**) {
 }
 
 /// Extension raises the boom, folds the arm in and curls the bucket in.
-void signs_of_extension(void**) {
+TEST(signs_of_extension) {
   const Eigen::Vector3d middle(0.5 * stroke_max(0), 0.5 * stroke_max(1), 0.5 * stroke_max(2));
   const Eigen::Vector3d at = machine().joints_from_strokes(middle).joints_rad;
   const Eigen::Vector3d longer =
@@ -99,7 +99,7 @@ void signs_of_extension(void**) {
 
 /// Bucket linkage at one angle, its four points laid out by hand: the rocker's end has the rocker's
 /// distance from its pivot and the coupler's from the lug.
-void linkage_closes(void**) {
+TEST(linkage_closes) {
   const ExcavatorGeometry& geometry = machine().geometry();
   const BucketLinkageSolver solver(geometry.linkage, geometry.cylinder[kBucket].base_m,
                                    geometry.arm_length_m);
@@ -120,7 +120,7 @@ void check_finite(const StrokeResult& result) {
   assert_int_not_equal(result.status, ReachStatus::kOk);
 }
 
-void unreachable_poses_give_a_status(void**) {
+TEST(unreachable_poses_give_a_status) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   check_finite(machine().strokes_from_pose({15.0, 0.0, 1.5}));
@@ -135,7 +135,7 @@ void unreachable_poses_give_a_status(void**) {
 }
 
 /// Whatever pose is asked for, the answer is finite, and where it is 'ok' it leads back there.
-void any_pose_has_an_honest_answer(void**) {
+TEST(any_pose_has_an_honest_answer) {
   for (double x = -12.0; x <= 12.0; x += 0.75) {
     for (double y = -10.0; y <= 12.0; y += 0.75) {
       for (double attitude = -3.0; attitude <= 6.0; attitude += 0.5) {
@@ -154,7 +154,7 @@ void any_pose_has_an_honest_answer(void**) {
   }
 }
 
-void strokes_outside_the_cylinder_are_refused(void**) {
+TEST(strokes_outside_the_cylinder_are_refused) {
   const Eigen::Vector3d middle(0.5, 0.5, 0.5);
   const ReachStatus which[] = {ReachStatus::kBoomStroke, ReachStatus::kArmStroke,
                                ReachStatus::kBucketStroke};
@@ -171,16 +171,4 @@ void strokes_outside_the_cylinder_are_refused(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(strokes_to_pose_and_back),
-      cmocka_unit_test(jacobian_is_the_slope_of_the_pose),
-      cmocka_unit_test(straight_out_is_the_sum_of_the_links),
-      cmocka_unit_test(signs_of_extension),
-      cmocka_unit_test(linkage_closes),
-      cmocka_unit_test(unreachable_poses_give_a_status),
-      cmocka_unit_test(any_pose_has_an_honest_answer),
-      cmocka_unit_test(strokes_outside_the_cylinder_are_refused),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

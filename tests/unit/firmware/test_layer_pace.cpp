@@ -11,7 +11,7 @@ using namespace graben;
 using namespace graben::layer_test;
 
 /// The same lateness slows a cut the less, the farther over the design it is.
-void far_over_its_design_teeth_may_be_late(void**) {
+TEST(far_over_its_design_teeth_may_be_late) {
   const TaskProgram program = planned();
   const auto pace_of = [&](bool thin) {
     TaskState state = run_until(program, begun(program), [thin](const TaskState& at) {
@@ -29,7 +29,7 @@ void far_over_its_design_teeth_may_be_late(void**) {
 }
 
 /// A step that lifts takes the bucket out of a cut that is through.
-void a_lift_follows_a_cut_at_once(void**) {
+TEST(a_lift_follows_a_cut_at_once) {
   ProgramRequest with_lift = request();
   with_lift.step[3] = with_lift.step[2];
   with_lift.step[2] = with_lift.step[1];
@@ -51,10 +51,4 @@ void a_lift_follows_a_cut_at_once(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(far_over_its_design_teeth_may_be_late),
-      cmocka_unit_test(a_lift_follows_a_cut_at_once),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -11,7 +11,7 @@ using namespace graben;
 using namespace graben::layer_test;
 
 /// No jump of the aim, no place that the machine can't have, nothing below the line.
-void digs_down_to_its_design(void**) {
+TEST(digs_down_to_its_design) {
   const TaskProgram program = planned();
   TaskState state = begun(program);
   const double speed_most_mps = 3.0;
@@ -31,7 +31,7 @@ void digs_down_to_its_design(void**) {
 }
 
 /// The aim's velocity is what its place changes by.
-void aims_move_as_they_say(void**) {
+TEST(aims_move_as_they_say) {
   const TaskProgram program = planned();
   TaskState state = begun(program);
   int looked = 0;
@@ -49,7 +49,7 @@ void aims_move_as_they_say(void**) {
   assert_true(looked > 50);
 }
 
-void a_heavy_cut_gives_way_upwards(void**) {
+TEST(a_heavy_cut_gives_way_upwards) {
   const TaskProgram program = planned();
   const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return in_cut(at) && at.layers.share > 0.4;
@@ -73,7 +73,7 @@ void a_heavy_cut_gives_way_upwards(void**) {
   assert_true(heavy.layers.cuts.depth_m < depth_m);
 }
 
-void a_force_along_the_way_holds_nothing_up(void**) {
+TEST(a_force_along_the_way_holds_nothing_up) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return in_cut(at) && at.layers.share > 0.3;
@@ -88,7 +88,7 @@ void a_force_along_the_way_holds_nothing_up(void**) {
 }
 
 /// Teeth that do not come down are not pressed on by a plan far below them.
-void soil_that_holds_the_edge_up_is_cut_from_there(void**) {
+TEST(soil_that_holds_the_edge_up_is_cut_from_there) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return at.layers.phase == CutPhase::kEnters && at.layers.height_m < 0.55;
@@ -107,7 +107,7 @@ void soil_that_holds_the_edge_up_is_cut_from_there(void**) {
 }
 
 /// A platform that still swings about its place is waited for, over the ground.
-void teeth_off_to_a_side_do_not_end_the_way_down(void**) {
+TEST(teeth_off_to_a_side_do_not_end_the_way_down) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return at.layers.phase == CutPhase::kEnters && at.layers.height_m < 0.7;
@@ -124,7 +124,7 @@ void teeth_off_to_a_side_do_not_end_the_way_down(void**) {
 }
 
 /// Oil that is pressed lets off before the edge goes along: it would throw it down.
-void pressed_oil_lets_off_before_a_cut(void**) {
+TEST(pressed_oil_lets_off_before_a_cut) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return at.layers.phase == CutPhase::kEnters && at.layers.height_m < 0.6;
@@ -154,7 +154,7 @@ void pressed_oil_lets_off_before_a_cut(void**) {
 
 /// A heel on uncut ground holds a bucket that is to be folded: it is lifted straight up first.
 /// A heel that is pressed on uncut ground is as heavy as soil before the edge.
-void a_pressed_heel_gives_way_too(void**) {
+TEST(a_pressed_heel_gives_way_too) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return in_cut(at) && at.layers.share > 0.6;
@@ -169,7 +169,7 @@ void a_pressed_heel_gives_way_too(void**) {
 }
 
 /// Of the last cut: teeth under their plan slow it down more than teeth over it, and at once.
-void a_last_cut_waits_for_teeth_that_sink(void**) {
+TEST(a_last_cut_waits_for_teeth_that_sink) {
   const TaskProgram program = planned();
   const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return in_cut(at) && at.layers.cuts.cut.thin && at.layers.share > 0.5;
@@ -189,7 +189,7 @@ void a_last_cut_waits_for_teeth_that_sink(void**) {
 }
 
 /// In the slot that it has gone down in, the bucket is lifted the way that it has come.
-void teeth_in_their_slot_go_back_as_they_came(void**) {
+TEST(teeth_in_their_slot_go_back_as_they_came) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return in_cut(at) && at.layers.share > 0.05;
@@ -215,7 +215,7 @@ void teeth_in_their_slot_go_back_as_they_came(void**) {
 }
 
 /// Nobody has looked at fences there.
-void begins_beyond_its_line_where_nothing_is_fenced(void**) {
+TEST(begins_beyond_its_line_where_nothing_is_fenced) {
   TaskProgram program = planned();
   const auto begins_m = [&] {
     Cut cut = undug(program.layers).cut;
@@ -229,7 +229,7 @@ void begins_beyond_its_line_where_nothing_is_fenced(void**) {
   assert_near(begins_m(), 0.0, 0.0);
 }
 
-void a_held_heel_is_lifted_straight_up(void**) {
+TEST(a_held_heel_is_lifted_straight_up) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return at.layers.phase == CutPhase::kLifts && at.layers.folds && at.time_s > 0.2;
@@ -249,7 +249,7 @@ void a_held_heel_is_lifted_straight_up(void**) {
   assert_true(task_aim(machine().kinematics, program, state).teeth.attitude_rad < 0.45);
 }
 
-void a_full_bucket_ends_the_cut(void**) {
+TEST(a_full_bucket_ends_the_cut) {
   const TaskProgram program = planned();
   const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return at.layers.phase == CutPhase::kLifts;
@@ -260,7 +260,7 @@ void a_full_bucket_ends_the_cut(void**) {
 }
 
 /// The bucket comes out of the ground folded in, before it swings.
-void lifts_out_before_it_swings(void**) {
+TEST(lifts_out_before_it_swings) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return at.phase == TaskPhase::kSteps && at.step == 1 && at.layers.phase == CutPhase::kNone;
@@ -275,7 +275,7 @@ void lifts_out_before_it_swings(void**) {
 }
 
 /// What was dug is known when the task goes on, and forgotten when it has come to its end.
-void goes_on_where_it_was(void**) {
+TEST(goes_on_where_it_was) {
   const TaskProgram program = planned();
   const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return at.phase == TaskPhase::kSteps && at.step == 1 && at.layers.phase == CutPhase::kNone;
@@ -290,7 +290,7 @@ void goes_on_where_it_was(void**) {
   assert_false(stopped(remembered(0, done)).state.layers.begun);
 }
 
-void what_can_t_be_dug_in_layers_is_refused(void**) {
+TEST(what_can_t_be_dug_in_layers_is_refused) {
   const auto refusal = [](const ProgramRequest& asked) {
     return plan_program(machine().profile, asked).refusal;
   };
@@ -314,24 +314,4 @@ void what_can_t_be_dug_in_layers_is_refused(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(digs_down_to_its_design),
-      cmocka_unit_test(aims_move_as_they_say),
-      cmocka_unit_test(a_heavy_cut_gives_way_upwards),
-      cmocka_unit_test(a_force_along_the_way_holds_nothing_up),
-      cmocka_unit_test(soil_that_holds_the_edge_up_is_cut_from_there),
-      cmocka_unit_test(teeth_off_to_a_side_do_not_end_the_way_down),
-      cmocka_unit_test(pressed_oil_lets_off_before_a_cut),
-      cmocka_unit_test(a_pressed_heel_gives_way_too),
-      cmocka_unit_test(a_last_cut_waits_for_teeth_that_sink),
-      cmocka_unit_test(teeth_in_their_slot_go_back_as_they_came),
-      cmocka_unit_test(begins_beyond_its_line_where_nothing_is_fenced),
-      cmocka_unit_test(a_held_heel_is_lifted_straight_up),
-      cmocka_unit_test(a_full_bucket_ends_the_cut),
-      cmocka_unit_test(lifts_out_before_it_swings),
-      cmocka_unit_test(goes_on_where_it_was),
-      cmocka_unit_test(what_can_t_be_dug_in_layers_is_refused),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -18,7 +18,7 @@ CutSeen weighs(const TaskProgram& program, const TaskState& state) {
 }
 
 /// A bucket that was weighed is raised and reached out once, empty, before it first goes back.
-void an_empty_bucket_is_moved_once(void**) {
+TEST(an_empty_bucket_is_moved_once) {
   const TaskProgram program = planned();
   TaskState state = begun(program);
   std::vector<DriveVector> ways;
@@ -42,7 +42,7 @@ void an_empty_bucket_is_moved_once(void**) {
 }
 
 /// Drives that hardly get on are not waited for: the return begins from where they are.
-void a_tare_that_gets_stuck_ends(void**) {
+TEST(a_tare_that_gets_stuck_ends) {
   const TaskProgram program = planned();
   TaskState state = begun(program);
   while (state.layers.tares == TarePart::kNone) {
@@ -61,7 +61,7 @@ void a_tare_that_gets_stuck_ends(void**) {
 }
 
 /// Who weighs nothing has nothing to learn it for.
-void without_a_payload_there_is_none(void**) {
+TEST(without_a_payload_there_is_none) {
   const TaskProgram program = planned();
   run_until(program, begun(program), [](const TaskState& at) {
     assert_true(at.layers.tares == TarePart::kNone);
@@ -71,11 +71,4 @@ void without_a_payload_there_is_none(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(an_empty_bucket_is_moved_once),
-      cmocka_unit_test(a_tare_that_gets_stuck_ends),
-      cmocka_unit_test(without_a_payload_there_is_none),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -55,7 +55,7 @@ TaskState touched(const TaskProgram& program, double ground_m, Bearing bearing) 
   return state;
 }
 
-void counts_heights_from_the_ground(void**) {
+TEST(counts_heights_from_the_ground) {
   for (const Bearing bearing : {Bearing::kByForce, Bearing::kByPlace}) {
     for (const double ground_m : {-0.022, 0.0, 0.017}) {
       const TaskProgram level = planned(-0.3);
@@ -71,14 +71,14 @@ void counts_heights_from_the_ground(void**) {
 }
 
 /// Along the design's normal.
-void counts_heights_over_a_slope(void**) {
+TEST(counts_heights_over_a_slope) {
   const TaskProgram slope = planned(-0.9);
   const TaskState state = touched(slope, 0.02, Bearing::kByForce);
   assert_near(state.layers.zero_m, 0.02 * slope.layers.up.z(), 1.5e-3);
   assert_true(slope.layers.up.z() < 0.95);
 }
 
-void ground_that_is_not_where_it_should_be_is_not_believed(void**) {
+TEST(ground_that_is_not_where_it_should_be_is_not_believed) {
   const TaskProgram level = planned(-0.3);
   for (const double ground_m : {-0.5, 0.068, 0.2}) {
     const TaskState state = touched(level, ground_m, Bearing::kByForce);
@@ -88,7 +88,7 @@ void ground_that_is_not_where_it_should_be_is_not_believed(void**) {
 }
 
 /// Slow teeth stay behind their plan by more than what would be ground, and noise is no weight.
-void late_teeth_in_the_air_are_not_on_the_ground(void**) {
+TEST(late_teeth_in_the_air_are_not_on_the_ground) {
   constexpr double kLate_m = 0.03;
   constexpr double kGround_m = -0.03;
   const TaskProgram level = planned(-0.3);
@@ -109,7 +109,7 @@ void late_teeth_in_the_air_are_not_on_the_ground(void**) {
 }
 
 /// Only where the task says so, and once: what is known of the ground stays when the task rests.
-void touches_once(void**) {
+TEST(touches_once) {
   const TaskProgram plain = planned(-0.3, false);
   assert_true(plain.layers.touch_share < 0.0);
   const TaskProgram level = planned(-0.3);
@@ -122,7 +122,7 @@ void touches_once(void**) {
 }
 
 /// The floor is level as it comes down, and it is out of the ground before the bucket turns.
-void comes_down_flat_and_leaves_upwards(void**) {
+TEST(comes_down_flat_and_leaves_upwards) {
   const TaskProgram level = planned(-0.3);
   TaskState state = task_start(machine().profile, machine().kinematics, level, level.start);
   double lowest_m = 1.0;
@@ -147,14 +147,4 @@ void comes_down_flat_and_leaves_upwards(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(counts_heights_from_the_ground),
-      cmocka_unit_test(counts_heights_over_a_slope),
-      cmocka_unit_test(ground_that_is_not_where_it_should_be_is_not_believed),
-      cmocka_unit_test(late_teeth_in_the_air_are_not_on_the_ground),
-      cmocka_unit_test(touches_once),
-      cmocka_unit_test(comes_down_flat_and_leaves_upwards),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

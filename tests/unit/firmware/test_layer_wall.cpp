@@ -25,7 +25,7 @@ TaskState last_cut(const TaskProgram& program, double beyond_m) {
   return state;
 }
 
-void a_wall_s_foot_is_left_standing(void**) {
+TEST(a_wall_s_foot_is_left_standing) {
   const TaskProgram program = planned();
   TaskState state = last_cut(program, 0.4);
   const double design_m = state.layers.cuts.cut.height_m;
@@ -45,7 +45,7 @@ void a_wall_s_foot_is_left_standing(void**) {
 }
 
 /// Teeth that come down it arrive level.
-void a_wall_s_foot_runs_out_level(void**) {
+TEST(a_wall_s_foot_runs_out_level) {
   const TaskProgram program = planned();
   LayerState layers = last_cut(program, 0.4).layers;
   const auto height_m = [&](double beyond_m) {
@@ -58,7 +58,7 @@ void a_wall_s_foot_runs_out_level(void**) {
 }
 
 /// Teeth sink by what the oil gives under the force that bears the heel up, on a foot alone.
-void a_foot_that_bears_is_no_hold(void**) {
+TEST(a_foot_that_bears_is_no_hold) {
   const LayerPlan plan = planned().layers;
   assert_true(plan.give_down_mpn > 0.0);
   CutSeen seen;
@@ -94,14 +94,14 @@ double held_for_s(const TaskProgram& program, TaskState state, double force) {
 }
 
 /// It may break off: the oil would throw the teeth through the design.
-void a_wall_is_pulled_at_with_less(void**) {
+TEST(a_wall_is_pulled_at_with_less) {
   const TaskProgram program = planned();
   assert_true(held_for_s(program, last_cut(program, 0.4), 0.8) < 0.9);
   assert_near(held_for_s(program, last_cut(program, 0.0), 0.8), 3.0, 1e-9);
   assert_near(held_for_s(program, last_cut(program, 0.4), 0.5), 3.0, 1e-9);
 }
 
-void a_folded_heel_that_bears_goes_straight_up(void**) {
+TEST(a_folded_heel_that_bears_goes_straight_up) {
   const TaskProgram program = planned();
   TaskState state = run_until(program, begun(program), [](const TaskState& at) {
     return at.layers.phase == CutPhase::kLifts && at.layers.folds && at.time_s > 0.2;
@@ -122,13 +122,4 @@ void a_folded_heel_that_bears_goes_straight_up(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_wall_s_foot_is_left_standing),
-      cmocka_unit_test(a_wall_s_foot_runs_out_level),
-      cmocka_unit_test(a_foot_that_bears_is_no_hold),
-      cmocka_unit_test(a_wall_is_pulled_at_with_less),
-      cmocka_unit_test(a_folded_heel_that_bears_goes_straight_up),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -73,7 +73,7 @@ struct Bench {
 };
 
 /// A speed that is off says less of an opening where the bypass closes over it as well.
-void a_bypass_that_closes_over_the_opening_makes_speeds_steep(void**) {
+TEST(a_bypass_that_closes_over_the_opening_makes_speeds_steep) {
   const auto learnt_edge = [](double bypass_closes_at) {
     Bench bench;
     bench.row.spool.bypass_closes_at = bypass_closes_at;
@@ -87,7 +87,7 @@ void a_bypass_that_closes_over_the_opening_makes_speeds_steep(void**) {
 }
 
 /// One that stands at 0.96 of an opening tells where its dead band ends: not beyond its spool.
-void a_drive_that_stands_under_a_closing_bypass_shows_its_edge(void**) {
+TEST(a_drive_that_stands_under_a_closing_bypass_shows_its_edge) {
   const auto stood_edge = [](double bypass_closes_at, double opening) {
     Bench bench;
     bench.row.spool.bypass_closes_at = bypass_closes_at;
@@ -108,7 +108,7 @@ void a_drive_that_stands_under_a_closing_bypass_shows_its_edge(void**) {
   assert_near(std::max(stood_edge(0.25, 0.02), stood_edge(0.25, 0.92)), 0.0, 0.0);
 }
 
-void a_dead_band_is_learnt_on_its_own_side(void**) {
+TEST(a_dead_band_is_learnt_on_its_own_side) {
   for (const double edge : {0.17, 0.23}) {
     Bench bench;
     bench.extend.edge = edge;
@@ -130,13 +130,13 @@ void a_dead_band_is_learnt_on_its_own_side(void**) {
 }
 
 /// An opening counts from the dead band's end, what is told is of the whole travel.
-void an_edge_is_told_in_travel(void**) {
+TEST(an_edge_is_told_in_travel) {
   Bench bench;
   bench.valve.extend.edge = -0.05;
   assert_near(learnt_edge_ratio(bench.row, bench.valve, true), -0.05 * (1.0 - kEdge), 1e-12);
 }
 
-void an_exponent_is_learnt(void**) {
+TEST(an_exponent_is_learnt) {
   for (const double exponent : {1.4, 1.8}) {
     Bench bench;
     bench.retract.exponent = exponent;
@@ -150,7 +150,7 @@ void an_exponent_is_learnt(void**) {
 }
 
 /// It is learnt, too, where nothing is done with it.
-void what_is_not_used_is_learnt_as_well(void**) {
+TEST(what_is_not_used_is_learnt_as_well) {
   Bench bench;
   bench.corrected = false;
   bench.extend.edge = 0.23;
@@ -158,7 +158,7 @@ void what_is_not_used_is_learnt_as_well(void**) {
   assert_near(opening_beyond(bench.valve.extend, 0.3), 0.7 * 0.0375, 0.007);
 }
 
-void nothing_is_learnt_of_what_is_not_the_valves_doing(void**) {
+TEST(nothing_is_learnt_of_what_is_not_the_valves_doing) {
   const LearntValve fresh;
   const auto assert_fresh = [&](const Bench& bench) {
     assert_near(bench.valve.extend.edge, fresh.extend.edge, 0.0);
@@ -202,7 +202,7 @@ void nothing_is_learnt_of_what_is_not_the_valves_doing(void**) {
 }
 
 /// However far off a valve is, and whatever the sensors say.
-void what_is_believed_stays_within_bounds(void**) {
+TEST(what_is_believed_stays_within_bounds) {
   for (const Bench::Side real : {Bench::Side{0.02, 1.0}, Bench::Side{0.33, 2.6}}) {
     Bench bench;
     bench.extend = real;
@@ -219,7 +219,7 @@ void what_is_believed_stays_within_bounds(void**) {
   }
 }
 
-void still_and_without_time_nothing_breaks(void**) {
+TEST(still_and_without_time_nothing_breaks) {
   Bench bench;
   ValidDrive seen;
   for (const double period_s : {0.0, 0.01}) {
@@ -233,7 +233,7 @@ void still_and_without_time_nothing_breaks(void**) {
 }
 
 /// Over all that is believed: more opening is more duty, and the way back meets.
-void duties_rise_and_turn_back(void**) {
+TEST(duties_rise_and_turn_back) {
   const Bench bench;
   for (const double edge : {-0.07, 0.0, 0.07}) {
     for (const double bend : {-0.3, 0.0, 0.3}) {
@@ -257,7 +257,7 @@ void duties_rise_and_turn_back(void**) {
 }
 
 /// Little is known of openings that were not used.
-void the_spread_is_less_where_it_worked(void**) {
+TEST(the_spread_is_less_where_it_worked) {
   Bench bench;
   const double before = opening_spread(bench.valve.extend, 0.3);
   bench.work(8.0, 1.0);
@@ -267,7 +267,7 @@ void the_spread_is_less_where_it_worked(void**) {
 }
 
 /// A valve that is as its two tables say is nothing to learn, one that is not is off on its side.
-void what_is_learnt_is_beyond_its_sides_table(void**) {
+TEST(what_is_learnt_is_beyond_its_sides_table) {
   DriveRow row;
   row.answer = test::two_sides();
   LearntValve valve;
@@ -282,7 +282,7 @@ void what_is_learnt_is_beyond_its_sides_table(void**) {
 }
 
 /// A command is compared when its side has answered it, spool by the table of its side.
-void each_side_has_its_own_lag(void**) {
+TEST(each_side_has_its_own_lag) {
   DriveRow row;
   row.answer = test::two_sides();
   for (const double way : {1.0, -1.0}) {
@@ -316,7 +316,7 @@ double speed_after_mps(Bench& bench, double asked_mps, double seconds) {
 }
 
 /// It stands under a spool that should be open, until what is felt opens it.
-void a_motor_that_stands_has_a_later_edge(void**) {
+TEST(a_motor_that_stands_has_a_later_edge) {
   for (const double way : {1.0, -1.0}) {
     Bench bench = motor();
     (way > 0.0 ? bench.extend : bench.retract).edge = 0.25;
@@ -334,7 +334,7 @@ void a_motor_that_stands_has_a_later_edge(void**) {
 }
 
 /// Corrections of a motor that is to stand are no word of it, nor is a spool that is not open.
-void little_is_not_felt(void**) {
+TEST(little_is_not_felt) {
   Bench bench = motor();
   bench.extend.edge = 0.25;
   static_cast<void>(speed_after_mps(bench, 4.0 * kStill_mps, 3.0));
@@ -349,7 +349,7 @@ void little_is_not_felt(void**) {
 }
 
 /// Far too fast as it sets off, it has an earlier edge; later its load may drive it.
-void a_motor_that_jumps_off_has_an_earlier_edge(void**) {
+TEST(a_motor_that_jumps_off_has_an_earlier_edge) {
   Bench bench = motor();
   bench.extend.edge = 0.15;
   bench.step(0.0);  // It stands.
@@ -367,7 +367,7 @@ void a_motor_that_jumps_off_has_an_earlier_edge(void**) {
 }
 
 /// However wrong it seems, the edge stays within its bounds.
-void what_is_felt_stays_within_bounds(void**) {
+TEST(what_is_felt_stays_within_bounds) {
   Bench bench = motor();
   bench.extend.edge = 0.9;
   static_cast<void>(speed_after_mps(bench, 0.003, 10.0));
@@ -376,25 +376,4 @@ void what_is_felt_stays_within_bounds(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_bypass_that_closes_over_the_opening_makes_speeds_steep),
-      cmocka_unit_test(a_drive_that_stands_under_a_closing_bypass_shows_its_edge),
-      cmocka_unit_test(a_dead_band_is_learnt_on_its_own_side),
-      cmocka_unit_test(an_edge_is_told_in_travel),
-      cmocka_unit_test(an_exponent_is_learnt),
-      cmocka_unit_test(what_is_not_used_is_learnt_as_well),
-      cmocka_unit_test(nothing_is_learnt_of_what_is_not_the_valves_doing),
-      cmocka_unit_test(what_is_believed_stays_within_bounds),
-      cmocka_unit_test(still_and_without_time_nothing_breaks),
-      cmocka_unit_test(duties_rise_and_turn_back),
-      cmocka_unit_test(the_spread_is_less_where_it_worked),
-      cmocka_unit_test(what_is_learnt_is_beyond_its_sides_table),
-      cmocka_unit_test(each_side_has_its_own_lag),
-      cmocka_unit_test(a_motor_that_stands_has_a_later_edge),
-      cmocka_unit_test(little_is_not_felt),
-      cmocka_unit_test(a_motor_that_jumps_off_has_an_earlier_edge),
-      cmocka_unit_test(what_is_felt_stays_within_bounds),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -166,7 +166,7 @@ void replay(const test::ReplayMachine& machine, std::uint64_t seed, bool late, T
   count_end(tally, cap);
 }
 
-void no_limit_is_overrun(void**) {
+TEST(no_limit_is_overrun) {
   std::array<Tally, 2> tallies;
   for (int i = 0; i < kTargets; ++i) {
     const bool late = i % 2 == 1;
@@ -187,9 +187,4 @@ void no_limit_is_overrun(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(no_limit_is_overrun),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -32,7 +32,7 @@ BlindPlace walked(const TeethPose& from, const TeethPose& to) {
 }
 
 /// Against every 1/10000 of the line, and the last digits of the place itself.
-void the_place_is_where_it_begins(void**) {
+TEST(the_place_is_where_it_begins) {
   const TeethPose inside = teeth(0.5, 0.6, 0.4, 0.3);
   const TeethPose targets[] = {{{9.5, 2.0, 0.5}, inside.attitude_rad},
                                {{5.0, 2.0, -5.0}, inside.attitude_rad},
@@ -52,7 +52,7 @@ void the_place_is_where_it_begins(void**) {
   }
 }
 
-void a_blind_start_is_told_as_such(void**) {
+TEST(a_blind_start_is_told_as_such) {
   const BlindPlace place = walked({{9.5, 0.0, 0.0}, 2.0}, teeth(0.5, 0.6, 0.4, 0.0));
   assert_int_equal(place.blind.kind, BlindKind::kOutOfReach);
   assert_near(place.share, 0.0, 0.0);
@@ -67,7 +67,7 @@ TeethLine across(double x_m) {
 
 /// The arm cylinder's range is left between two steps only, by less and less: the line brushes it
 /// from inside.
-void a_brush_with_a_stroke_s_end_is_seen(void**) {
+TEST(a_brush_with_a_stroke_s_end_is_seen) {
   const double middle = 1.0 / (2.0 + 1.0 / 64.0);
   double inside_m = 0.05;
   double outside_m = -0.05;
@@ -90,7 +90,7 @@ void a_brush_with_a_stroke_s_end_is_seen(void**) {
 }
 
 /// Its swing goes past half a turn, and on.
-void a_line_passes_behind_the_machine(void**) {
+TEST(a_line_passes_behind_the_machine) {
   const TeethPose left = teeth(0.5, 0.6, 0.4, 2.9);
   const TeethPose right = teeth(0.5, 0.6, 0.4, -2.9);
   const TeethLine line = line_between(machine(), left, right);
@@ -101,7 +101,7 @@ void a_line_passes_behind_the_machine(void**) {
 
 /// Past the swing axis there is no way nearer than the least radius, however reachable both ends
 /// are, and be it for less than a step of the walk.
-void no_line_over_the_swing_axis(void**) {
+TEST(no_line_over_the_swing_axis) {
   ExcavatorGeometry geometry = machine().geometry();
   for (CylinderGeometry& cylinder : geometry.cylinder) {
     cylinder.stroke_m = 10.0;
@@ -122,7 +122,7 @@ void no_line_over_the_swing_axis(void**) {
 }
 
 /// Whichever turn the ends' attitudes are written in, the bucket takes the same way.
-void full_turns_of_the_attitude_are_none(void**) {
+TEST(full_turns_of_the_attitude_are_none) {
   const TeethPose from = teeth(0.5, 0.6, 0.2, 0.3);
   TeethPose to = teeth(0.4, 0.5, 0.6, 0.5);
   const TeethLine plain = line_between(machine(), from, to);
@@ -136,7 +136,7 @@ void full_turns_of_the_attitude_are_none(void**) {
 }
 
 /// A turn on the spot has a way too: the pin's about the teeth.
-void way_of_a_turn_on_the_spot(void**) {
+TEST(way_of_a_turn_on_the_spot) {
   const TeethPose from{{5.0, 0.0, 1.0}, 2.0};
   const TeethPose to{{5.0, 0.0, 1.0}, 1.5};
   assert_near(way_m(machine(), line_between(machine(), from, to)), 0.5 * 1.23, 1e-12);
@@ -144,7 +144,7 @@ void way_of_a_turn_on_the_spot(void**) {
   assert_near(way_m(machine(), line_between(machine(), from, far)), 5.0, 1e-12);
 }
 
-void distance_from_a_line_and_from_a_turn_on_the_spot(void**) {
+TEST(distance_from_a_line_and_from_a_turn_on_the_spot) {
   TeethLine line;
   line.from.position_m = {1.0, 2.0, 3.0};
   line.change.position_m = {0.0, 4.0, 0.0};
@@ -156,16 +156,4 @@ void distance_from_a_line_and_from_a_turn_on_the_spot(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_place_is_where_it_begins),
-      cmocka_unit_test(a_blind_start_is_told_as_such),
-      cmocka_unit_test(a_brush_with_a_stroke_s_end_is_seen),
-      cmocka_unit_test(a_line_passes_behind_the_machine),
-      cmocka_unit_test(no_line_over_the_swing_axis),
-      cmocka_unit_test(full_turns_of_the_attitude_are_none),
-      cmocka_unit_test(way_of_a_turn_on_the_spot),
-      cmocka_unit_test(distance_from_a_line_and_from_a_turn_on_the_spot),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -36,7 +36,7 @@ struct Machine {
 Machine of_the_paper() { return Machine(test::excavator_12t()); }
 
 /// 200 L/min a section over the pistons; the pump could give more.
-void limits_come_from_flow_and_area(void**) {
+TEST(limits_come_from_flow_and_area) {
   const DriveLimits limits = of_the_paper().limits;
   assert_near(limits.speed_out[kBoom], 3.333e-3 / 0.0173180, 1e-5);
   assert_near(limits.speed_in[kArm], 3.333e-3 / 0.0055418, 1e-4);
@@ -48,7 +48,7 @@ void limits_come_from_flow_and_area(void**) {
 }
 
 /// J to K in 18.4 s. The paper's 15 mm/s can't be its speed: the mean alone is 203.
-void the_paper_s_line(void**) {
+TEST(the_paper_s_line) {
   const Machine machine = of_the_paper();
   const PlanResult result = machine.plan();
   assert_int_equal(result.refusal, PlanRefusal::kNone);
@@ -65,7 +65,7 @@ void the_paper_s_line(void**) {
 }
 
 /// Strokes of the plan through the forward kinematics: 1000 moments.
-void replay_stays_on_the_line(void**) {
+TEST(replay_stays_on_the_line) {
   for (const Machine& machine : {of_the_paper(), Machine(test::excavator())}) {
     const PlanResult result = machine.plan();
     assert_int_equal(result.refusal, PlanRefusal::kNone);
@@ -93,7 +93,7 @@ void replay_stays_on_the_line(void**) {
   }
 }
 
-void velocities_are_differences_of_displacements(void**) {
+TEST(velocities_are_differences_of_displacements) {
   constexpr double kStep_s = 1e-4;
   const Machine machine = of_the_paper();
   const LinePlan plan = machine.plan().plan;
@@ -116,7 +116,7 @@ void velocities_are_differences_of_displacements(void**) {
 }
 
 /// Twice as much asked of one drive than it can: the whole takes twice as long on the same line.
-void the_whole_is_slowed_by_one_drive(void**) {
+TEST(the_whole_is_slowed_by_one_drive) {
   Machine machine = of_the_paper();
   const PlanResult free = machine.plan();
   for (int drive = 0; drive < kDriveCount; ++drive) {
@@ -140,7 +140,7 @@ void the_whole_is_slowed_by_one_drive(void**) {
 }
 
 /// Extending has its own limit, retracting its own.
-void limits_hold_in_their_direction(void**) {
+TEST(limits_hold_in_their_direction) {
   Machine machine = of_the_paper();
   const PlanResult free = machine.plan();
   // The line swings to the right only.
@@ -150,7 +150,7 @@ void limits_hold_in_their_direction(void**) {
   assert_int_equal(machine.plan().slowed_by, PlanLimit::kSpeed);
 }
 
-void speed_given_and_duration_found(void**) {
+TEST(speed_given_and_duration_found) {
   Machine machine = of_the_paper();
   const double speed_mps = machine.plan().plan.way_m * machine.plan().plan.ramp.peak_rate_ps();
   machine.request.duration_s = 0.0;
@@ -168,7 +168,7 @@ void speed_given_and_duration_found(void**) {
   assert_int_equal(machine.plan().slowed_by, PlanLimit::kTeethAcceleration);
 }
 
-void what_is_no_task_is_refused(void**) {
+TEST(what_is_no_task_is_refused) {
   const auto refused = [](void (*spoil)(Machine&)) {
     Machine machine = of_the_paper();
     spoil(machine);
@@ -264,7 +264,7 @@ void assert_place(const Machine& machine, const PlanResult& result) {
   assert_true((place.teeth.position_m - result.plan.line.at(place.share).position_m).norm() < 1e-9);
 }
 
-void random_targets_keep_all_limits_or_say_where_not(void**) {
+TEST(random_targets_keep_all_limits_or_say_where_not) {
   int accepted = 0;
   int slowed = 0;
   std::array<int, kDriveCount> refused{};
@@ -297,17 +297,4 @@ void random_targets_keep_all_limits_or_say_where_not(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(limits_come_from_flow_and_area),
-      cmocka_unit_test(the_paper_s_line),
-      cmocka_unit_test(replay_stays_on_the_line),
-      cmocka_unit_test(velocities_are_differences_of_displacements),
-      cmocka_unit_test(the_whole_is_slowed_by_one_drive),
-      cmocka_unit_test(limits_hold_in_their_direction),
-      cmocka_unit_test(speed_given_and_duration_found),
-      cmocka_unit_test(what_is_no_task_is_refused),
-      cmocka_unit_test(random_targets_keep_all_limits_or_say_where_not),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

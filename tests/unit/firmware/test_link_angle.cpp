@@ -74,7 +74,7 @@ double worst_rad(Body body, double from_s, double to_s, bool at_rest, bool known
   return worst;
 }
 
-void stands(void**) {
+TEST(stands) {
   for (const double angle : {-3.0, -1.2, 0.0, 0.8, 2.9}) {
     Body body;
     body.middle_rad = angle;
@@ -84,7 +84,7 @@ void stands(void**) {
   }
 }
 
-void learns_its_bias_at_rest(void**) {
+TEST(learns_its_bias_at_rest) {
   Body body;
   body.bias_radps = 3e-3;
   body.noise = 1.0;
@@ -99,7 +99,7 @@ void learns_its_bias_at_rest(void**) {
   assert_true(rested.bias_variance < moving.bias_variance);
 }
 
-void its_own_acceleration_is_no_tilt(void**) {
+TEST(its_own_acceleration_is_no_tilt) {
   Body body;
   body.swing_rad = 0.3;
   LinkAngle state;
@@ -109,7 +109,7 @@ void its_own_acceleration_is_no_tilt(void**) {
   assert_true(worst_rad(body, 1.0, 20.0, false, false, misled) > 4e-3);
 }
 
-void deviation_holds(void**) {
+TEST(deviation_holds) {
   int outside = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     Body body;
@@ -126,7 +126,7 @@ void deviation_holds(void**) {
   assert_in_range(outside, 0, 6);
 }
 
-void looks_ahead(void**) {
+TEST(looks_ahead) {
   Body body;
   body.swing_rad = 0.3;
   LinkAngle state;
@@ -137,7 +137,7 @@ void looks_ahead(void**) {
   assert_true(std::abs(body.angle(last_s + 0.02) - body.angle(last_s)) > 5e-3);
 }
 
-void a_stuck_sensor_contradicts(void**) {
+TEST(a_stuck_sensor_contradicts) {
   Body body;
   LinkAngle state;
   begin_angle(kNoise, body.reading(0.0), state);
@@ -155,7 +155,7 @@ void a_stuck_sensor_contradicts(void**) {
   assert_in_range(cycles, 20, 300);
 }
 
-void blows_are_no_tilt(void**) {
+TEST(blows_are_no_tilt) {
   Body body;
   LinkAngle state;
   begin_angle(kNoise, body.reading(0.0), state);
@@ -172,7 +172,7 @@ void blows_are_no_tilt(void**) {
   assert_near(state.angle_rad, body.angle(5.0), 5e-3);
 }
 
-void falls_without_direction(void**) {
+TEST(falls_without_direction) {
   LinkAngle state;
   AngleReading reading;
   reading.period_s = kPeriod_s;
@@ -190,16 +190,4 @@ void falls_without_direction(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(stands),
-      cmocka_unit_test(learns_its_bias_at_rest),
-      cmocka_unit_test(its_own_acceleration_is_no_tilt),
-      cmocka_unit_test(deviation_holds),
-      cmocka_unit_test(looks_ahead),
-      cmocka_unit_test(a_stuck_sensor_contradicts),
-      cmocka_unit_test(blows_are_no_tilt),
-      cmocka_unit_test(falls_without_direction),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -26,7 +26,7 @@ McvInput light_load(double boom_mps, double arm_mps, double bucket_mps) {
 }
 
 /// (17) must hold at what (18) gives: drained plus regenerated is what comes out.
-void return_gallery_balances(void**) {
+TEST(return_gallery_balances) {
   const double c_drain = 7e-7;
   const double c_check = 1.1e-6;
   for (double q = 0.0; q < 4e-3; q += 1e-4) {
@@ -45,7 +45,7 @@ void return_gallery_balances(void**) {
 }
 
 /// Without regeneration and leakage the balance is a straight line: s = (flow - demand) / c_by.
-void pump_pressure_in_closed_form(void**) {
+TEST(pump_pressure_in_closed_form) {
   FlowBalance balance;
   balance.flow_m3ps = 2e-3;
   balance.in_flow_m3ps = 5e-4;
@@ -64,7 +64,7 @@ void pump_pressure_in_closed_form(void**) {
 }
 
 /// Over wide random circuits: always converged, the root balances, and nothing changes sign there.
-void pump_pressure_always_converges(void**) {
+TEST(pump_pressure_always_converges) {
   std::mt19937 random(11);
   const auto draw = [&](double least, double most) {
     return std::exp(
@@ -107,7 +107,7 @@ void pump_pressure_always_converges(void**) {
 }
 
 /// A pump that feeds nothing and has no orifice to the tank holds no pressure and no one up.
-void an_idle_pump_without_orifices_is_no_limit(void**) {
+TEST(an_idle_pump_without_orifices_is_no_limit) {
   McvMachine machine = kim();
   machine.pump_count = 3;
   McvInput input = light_load(0.05, 0.05, 0.05);
@@ -118,7 +118,7 @@ void an_idle_pump_without_orifices_is_no_limit(void**) {
   assert_near(solution.point.pump_pressure_pa[2], 0.0, 0.0);
 }
 
-void full_speed_where_nothing_holds(void**) {
+TEST(full_speed_where_nothing_holds) {
   const McvSolution solution =
       solve_mcv(kim(), light_load(0.05, 0.05, 0.05), McvPolicy::kAlgorithm1);
   assert_int_equal(solution.status, SolveStatus::kOk);
@@ -131,7 +131,7 @@ void full_speed_where_nothing_holds(void**) {
 }
 
 /// Asking more of a pump than it has gives the speed that just feeds it, and says so.
-void a_starved_pump_scales_all_axes(void**) {
+TEST(a_starved_pump_scales_all_axes) {
   const McvMachine machine = kim();
   const McvInput input = light_load(0.3, 0.0, 0.3);
   const McvSolution solution = solve_mcv(machine, input, McvPolicy::kAlgorithm1);
@@ -144,7 +144,7 @@ void a_starved_pump_scales_all_axes(void**) {
 }
 
 /// Where a load is what holds lambda, just F_offset is left to drive it.
-void back_flow_keeps_its_offset(void**) {
+TEST(back_flow_keeps_its_offset) {
   McvInput input = light_load(0.2, 0.0, 0.05);
   input.cap_pressure_pa[kBoom] = 15e6;
   const McvSolution solution = solve_mcv(kim(), input, McvPolicy::kAlgorithm1);
@@ -154,7 +154,7 @@ void back_flow_keeps_its_offset(void**) {
               test::excavator().profile.valve.spool[kBoom].force_offset_n, 1.0);
 }
 
-void a_load_too_heavy_is_infeasible(void**) {
+TEST(a_load_too_heavy_is_infeasible) {
   McvInput input = light_load(0.1, 0.1, 0.1);
   input.cap_pressure_pa[kBoom] = 60e6;
   const McvSolution solution = solve_mcv(kim(), input, McvPolicy::kAlgorithm1);
@@ -167,7 +167,7 @@ void a_load_too_heavy_is_infeasible(void**) {
   }
 }
 
-void at_rest_everything_stays_closed(void**) {
+TEST(at_rest_everything_stays_closed) {
   const McvSolution solution = solve_mcv(kim(), light_load(0.0, 0.0, 0.0), McvPolicy::kAlgorithm1);
   assert_int_equal(solution.status, SolveStatus::kOk);
   for (const double spool : solution.point.spool_m) {
@@ -192,7 +192,7 @@ void refused(McvDefect defect, Break change) {
   check_safe(solve_mcv(machine, input, McvPolicy::kAlgorithm1), defect);
 }
 
-void bad_machines_and_inputs_are_safe(void**) {
+TEST(bad_machines_and_inputs_are_safe) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refused(McvDefect::kVelocity, [&](auto&, auto& in) { in.velocity_mps[1] = nan; });
   refused(McvDefect::kPressure, [&](auto&, auto& in) { in.cap_pressure_pa[2] = nan; });
@@ -227,18 +227,4 @@ void bad_machines_and_inputs_are_safe(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(return_gallery_balances),
-      cmocka_unit_test(pump_pressure_in_closed_form),
-      cmocka_unit_test(pump_pressure_always_converges),
-      cmocka_unit_test(an_idle_pump_without_orifices_is_no_limit),
-      cmocka_unit_test(full_speed_where_nothing_holds),
-      cmocka_unit_test(a_starved_pump_scales_all_axes),
-      cmocka_unit_test(back_flow_keeps_its_offset),
-      cmocka_unit_test(a_load_too_heavy_is_infeasible),
-      cmocka_unit_test(at_rest_everything_stays_closed),
-      cmocka_unit_test(bad_machines_and_inputs_are_safe),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -46,7 +46,7 @@ BodyPose moved(const BodyPose& body, const Vector6d& velocity, double step_s) {
 }
 
 /// (1), (4): J_V x_V-dot + J_m q_m-dot is how the edge really moves and turns.
-void it_is_the_edges_velocity(void**) {
+TEST(it_is_the_edges_velocity) {
   const BladeKinematics blade(test::dozer().profile.blade);
   std::mt19937 random(1);
   for (int n = 0; n < 200; ++n) {
@@ -66,7 +66,7 @@ void it_is_the_edges_velocity(void**) {
 }
 
 /// (5): whatever the body does, the edge gets the velocity along the normal.
-void the_joint_gives_what_is_wanted(void**) {
+TEST(the_joint_gives_what_is_wanted) {
   const BladeKinematics blade(test::dozer().profile.blade);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -83,26 +83,18 @@ void the_joint_gives_what_is_wanted(void**) {
   }
 }
 
-void without_a_lever_it_asks_for_nothing(void**) {
+TEST(without_a_lever_it_asks_for_nothing) {
   const BladeKinematics blade(test::dozer().profile.blade);
   const Vector6d still = Vector6d::Zero();
   assert_near(joint_rate_radps(blade, {}, 0.0, still, Eigen::Vector3d::UnitY(), 1.0), 0.0, 0.0);
 }
 
 /// Nose up is positive: a point ahead of the body rises.
-void pitch_is_nose_up(void**) {
+TEST(pitch_is_nose_up) {
   assert_true((rotation_from_pitch(0.1) * Eigen::Vector3d::UnitX()).z() > 0.0);
   assert_near(rotation_from_pitch(0.7).determinant(), 1.0, 1e-12);
 }
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_is_the_edges_velocity),
-      cmocka_unit_test(the_joint_gives_what_is_wanted),
-      cmocka_unit_test(without_a_lever_it_asks_for_nothing),
-      cmocka_unit_test(pitch_is_nose_up),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -26,7 +26,7 @@ EcuMode after(EcuMode mode, const ModeRequest& request) {
   return next_mode({mode, Fault::kNone}, request).mode;
 }
 
-void motion_needs_every_step(void**) {
+TEST(motion_needs_every_step) {
   ModeState state;
   assert_int_equal(state.mode, EcuMode::kSilent);
   state = next_mode(state, asks(false));
@@ -47,7 +47,7 @@ EcuMode after_all(std::initializer_list<ModeRequest> cycles) {
   return state.mode;
 }
 
-void a_held_deadman_or_a_waiting_task_does_not_arm(void**) {
+TEST(a_held_deadman_or_a_waiting_task_does_not_arm) {
   const ModeRequest released = asks(false, Task::kNone);
   const ModeRequest held_in_manual = asks(true, Task::kNone, false);
   const ModeRequest enabled = asks(true, Task::kNone);
@@ -61,11 +61,11 @@ void a_held_deadman_or_a_waiting_task_does_not_arm(void**) {
   assert_int_equal(after_all({released, with_task, released, enabled}), EcuMode::kArmed);
 }
 
-void enable_given_from_the_start_does_not_arm(void**) {
+TEST(enable_given_from_the_start_does_not_arm) {
   assert_int_equal(after(EcuMode::kSilent, asks(true)), EcuMode::kSilent);
 }
 
-void released_enable_or_manual_ends_motion_at_once(void**) {
+TEST(released_enable_or_manual_ends_motion_at_once) {
   assert_int_equal(after(EcuMode::kActive, asks(false)), EcuMode::kReady);
   assert_int_equal(after(EcuMode::kArmed, asks(false)), EcuMode::kReady);
   assert_int_equal(after(EcuMode::kActive, asks(true, Task::kDig, false)), EcuMode::kReady);
@@ -73,7 +73,7 @@ void released_enable_or_manual_ends_motion_at_once(void**) {
   assert_int_equal(after(EcuMode::kReady, asks(true, Task::kDig, false)), EcuMode::kReady);
 }
 
-void a_fault_latches_until_enable_is_released(void**) {
+TEST(a_fault_latches_until_enable_is_released) {
   ModeState state = next_mode({EcuMode::kActive, Fault::kNone}, broken(Fault::kStrokeMissing));
   assert_int_equal(state.mode, EcuMode::kFault);
   assert_int_equal(state.fault, Fault::kStrokeMissing);
@@ -86,13 +86,13 @@ void a_fault_latches_until_enable_is_released(void**) {
   assert_int_equal(state.fault, Fault::kNone);
 }
 
-void faults_of_the_cycle_count_too(void**) {
+TEST(faults_of_the_cycle_count_too) {
   const ModeState state = next_mode({EcuMode::kActive, Fault::kNone}, broken(Fault::kSolverFailed));
   assert_int_equal(state.mode, EcuMode::kFault);
   assert_int_equal(state.fault, Fault::kSolverFailed);
 }
 
-void without_enable_a_fault_only_silences(void**) {
+TEST(without_enable_a_fault_only_silences) {
   const ModeState state =
       next_mode({EcuMode::kReady, Fault::kNone}, broken(Fault::kPressureMissing));
   assert_int_equal(state.mode, EcuMode::kSilent);
@@ -100,7 +100,7 @@ void without_enable_a_fault_only_silences(void**) {
 }
 
 /// From every mode, whatever else is there, and nothing leads out of it.
-void told_to_end_is_the_end(void**) {
+TEST(told_to_end_is_the_end) {
   for (const EcuMode mode : {EcuMode::kSilent, EcuMode::kReady, EcuMode::kArmed, EcuMode::kActive,
                              EcuMode::kStopping, EcuMode::kFault}) {
     ModeRequest end = asks(true);
@@ -122,7 +122,7 @@ void told_to_end_is_the_end(void**) {
 }
 
 /// Somebody has a hand on the levers; in motion the spools are anywhere, of course.
-void spools_off_their_middle_do_not_arm(void**) {
+TEST(spools_off_their_middle_do_not_arm) {
   ModeRequest by_hand = asks(true, Task::kNone);
   by_hand.centred = false;
   ModeState ready = next_mode({EcuMode::kReady, Fault::kNone}, asks(false, Task::kNone));
@@ -134,7 +134,7 @@ void spools_off_their_middle_do_not_arm(void**) {
   assert_int_equal(after(EcuMode::kActive, moving), EcuMode::kActive);
 }
 
-void only_armed_and_active_are_motion(void**) {
+TEST(only_armed_and_active_are_motion) {
   for (const EcuMode mode : {EcuMode::kSilent, EcuMode::kReady, EcuMode::kArmed, EcuMode::kActive,
                              EcuMode::kStopping, EcuMode::kFault}) {
     assert_int_equal(in_motion(mode), mode == EcuMode::kArmed || mode == EcuMode::kActive);
@@ -154,7 +154,7 @@ unsigned why(EcuMode mode, const ModeRequest& request, const FaultSet& faults = 
 }
 
 /// What is asked of the operator, each by itself.
-void each_condition_has_its_bit(void**) {
+TEST(each_condition_has_its_bit) {
   const ModeRequest ready = asks(false, Task::kNone);
   const unsigned enable = bits({ArmBlock::kEnableNotFresh});
   assert_int_equal(why(EcuMode::kReady, ready), enable);
@@ -176,7 +176,7 @@ void each_condition_has_its_bit(void**) {
 }
 
 /// Each fault, by itself, shows what it takes away; all of them, all of it.
-void each_fault_has_its_bit(void**) {
+TEST(each_fault_has_its_bit) {
   struct Row {
     Fault fault;
     ArmBlock block;
@@ -206,7 +206,7 @@ void each_fault_has_its_bit(void**) {
   assert_int_equal(why(EcuMode::kSilent, ready, all), all_bits);
 }
 
-void in_motion_nothing_is_in_the_way(void**) {
+TEST(in_motion_nothing_is_in_the_way) {
   FaultSet slowing;
   slowing.add(Fault::kPressureMissing);
   ModeRequest moving = asks(true);
@@ -217,21 +217,4 @@ void in_motion_nothing_is_in_the_way(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(motion_needs_every_step),
-      cmocka_unit_test(a_held_deadman_or_a_waiting_task_does_not_arm),
-      cmocka_unit_test(enable_given_from_the_start_does_not_arm),
-      cmocka_unit_test(released_enable_or_manual_ends_motion_at_once),
-      cmocka_unit_test(a_fault_latches_until_enable_is_released),
-      cmocka_unit_test(faults_of_the_cycle_count_too),
-      cmocka_unit_test(without_enable_a_fault_only_silences),
-      cmocka_unit_test(told_to_end_is_the_end),
-      cmocka_unit_test(spools_off_their_middle_do_not_arm),
-      cmocka_unit_test(only_armed_and_active_are_motion),
-      cmocka_unit_test(each_condition_has_its_bit),
-      cmocka_unit_test(each_fault_has_its_bit),
-      cmocka_unit_test(in_motion_nothing_is_in_the_way),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

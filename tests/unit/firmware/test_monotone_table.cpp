@@ -10,7 +10,7 @@ namespace {
 using graben::MonotoneTable;
 using Fill = MonotoneTable::Fill;
 
-void reads_both_ways(void**) {
+TEST(reads_both_ways) {
   const double x[] = {0.0, 1.0, 3.0};
   const double y[] = {10.0, 20.0, 21.0};
   MonotoneTable table;
@@ -25,7 +25,7 @@ void reads_both_ways(void**) {
 }
 
 /// A full table: the bounded search must find every segment.
-void a_full_table_finds_every_segment(void**) {
+TEST(a_full_table_finds_every_segment) {
   double x[MonotoneTable::capacity()];
   double y[MonotoneTable::capacity()];
   for (int i = 0; i < MonotoneTable::capacity(); ++i) {
@@ -42,7 +42,7 @@ void a_full_table_finds_every_segment(void**) {
   }
 }
 
-void refuses_what_is_no_table(void**) {
+TEST(refuses_what_is_no_table) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double x[] = {0.0, 1.0, 2.0};
   const double flat[] = {0.0, 1.0, 1.0};
@@ -58,11 +58,4 @@ void refuses_what_is_no_table(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(reads_both_ways),
-      cmocka_unit_test(a_full_table_finds_every_segment),
-      cmocka_unit_test(refuses_what_is_no_table),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -27,7 +27,7 @@ void assert_cap(const VelocityCap& cap, double factor, LimitKind kind, int index
 }
 
 /// 12 t: gain 2 /s, 0.5 m/s2; slack 0.05 mm.
-void cylinder_ends(void**) {
+TEST(cylinder_ends) {
   const DriveVector middle(0.475, 0.565, 0.4375, 0.0);
   assert_cap(cap(middle, {0.2, -0.3, 0.3, 0.5}), 1.0, LimitKind::kNone, 0);
   assert_cap(cap({0.93, 0.565, 0.4375, 0.0}, {0.1, 0.0, 0.0, 0.0}), 2.0 * 0.02005 / 0.1,
@@ -46,7 +46,7 @@ void cylinder_ends(void**) {
 }
 
 /// 0.7 rad/s2; slack 0.02 mrad.
-void swing_ends(void**) {
+TEST(swing_ends) {
   ExcavatorProfile quick = machine().profile;
   quick.swing.acceleration_max_radps2 = 0.7;
   const auto cap = [&quick](const DriveVector& then, const DriveVector& velocity) {
@@ -67,7 +67,7 @@ void swing_ends(void**) {
 }
 
 /// Whichever comes first: boom 4 mm, arm 10 mm before its end, both as fast.
-void the_strongest_limit_holds(void**) {
+TEST(the_strongest_limit_holds) {
   assert_cap(cap({0.946, 1.120, 0.4375, 0.0}, {0.1, 0.1, 0.0, 0.0}), 2.0 * 0.00405 / 0.1,
              LimitKind::kStrokeEnd, kBoom);
   assert_cap(cap({0.940, 1.126, 0.4375, 0.0}, {0.1, 0.1, 0.0, 0.0}), 2.0 * 0.00405 / 0.1,
@@ -75,7 +75,7 @@ void the_strongest_limit_holds(void**) {
 }
 
 /// A ceiling over the arm pin, the highest of the points: the boom alone rises towards it.
-void fences_hold_the_point_that_is_nearest(void**) {
+TEST(fences_hold_the_point_that_is_nearest) {
   const DriveVector then(0.475, 0.565, 0.4375, 0.3);
   const DriveVector up(0.1, 0.0, 0.0, 0.0);
   const MachineMotion motion = machine_motion(machine().kinematics, then, up);
@@ -92,7 +92,7 @@ void fences_hold_the_point_that_is_nearest(void**) {
 }
 
 /// The swing turns the teeth towards a wall.
-void a_wall_holds_the_swing(void**) {
+TEST(a_wall_holds_the_swing) {
   const DriveVector then(0.475, 0.565, 0.4375, 0.3);
   const Eigen::Vector3d teeth_m = machine().teeth(then).position_m;
   FenceSet fences;
@@ -106,7 +106,7 @@ void a_wall_holds_the_swing(void**) {
 }
 
 /// Rounding towards a limit that is passed already stops nothing; neither does NaN pass.
-void rounding_is_free_and_nan_is_not(void**) {
+TEST(rounding_is_free_and_nan_is_not) {
   assert_cap(cap({0.96, 0.565, 0.4375, 0.0}, {1e-12, 0.2, 0.0, 0.0}), 1.0, LimitKind::kNone, 0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   assert_cap(cap({0.5, 0.5, 0.5, 0.0}, {0.1, nan, 0.0, 0.0}), 0.0, LimitKind::kNone, 0);
@@ -114,7 +114,7 @@ void rounding_is_free_and_nan_is_not(void**) {
 }
 
 /// Twice as far as the sensors may be off: with its margin it stops before the fence.
-void it_stops_at_the_margin(void**) {
+TEST(it_stops_at_the_margin) {
   const test::ReplayMachine whole(test::excavator_12t().profile);
   const DriveVector then(0.8, 0.565, 0.4375, 0.3);
   const DriveVector up(0.1, 0.0, 0.0, 0.0);
@@ -139,7 +139,7 @@ void it_stops_at_the_margin(void**) {
 
 /// Beyond a ceiling the boom leads further and is held, the swing is free: it alone goes on. With
 /// the boom alone nothing does.
-void beyond_a_fence_only_what_leads_back_moves(void**) {
+TEST(beyond_a_fence_only_what_leads_back_moves) {
   const DriveVector then(0.475, 0.565, 0.4375, 0.3);
   const double pin_m = machine().points(then).at(MachinePoint::kArmPin).position_m.z();
   FenceSet fences;
@@ -167,7 +167,7 @@ void beyond_a_fence_only_what_leads_back_moves(void**) {
 }
 
 /// A platform that turns by itself is taken to be where it will come to.
-void its_own_momentum_counts(void**) {
+TEST(its_own_momentum_counts) {
   const DriveVector then(0.475, 0.565, 0.4375, 0.3);
   const Eigen::Vector3d teeth_m = machine().teeth(then).position_m;
   FenceSet fences;
@@ -223,7 +223,7 @@ Slide slide_on_design(double speed_mps, bool late) {
   return slide;
 }
 
-void sliding_along_a_plane_does_not_chatter(void**) {
+TEST(sliding_along_a_plane_does_not_chatter) {
   for (const double speed_mps : {0.2, 0.5, 1.0}) {
     for (const bool late : {false, true}) {
       const Slide slide = slide_on_design(speed_mps, late);
@@ -237,7 +237,7 @@ void sliding_along_a_plane_does_not_chatter(void**) {
 }
 
 /// Heights that are seen too high let a design seem as much farther off than it is.
-void a_design_lies_where_the_ground_was_felt(void**) {
+TEST(a_design_lies_where_the_ground_was_felt) {
   FenceSet fences;
   const DriveVector at(0.475, 0.565, 0.4375, 0.0);
   const double teeth_z_m =
@@ -263,19 +263,4 @@ void a_design_lies_where_the_ground_was_felt(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(cylinder_ends),
-      cmocka_unit_test(swing_ends),
-      cmocka_unit_test(the_strongest_limit_holds),
-      cmocka_unit_test(fences_hold_the_point_that_is_nearest),
-      cmocka_unit_test(a_wall_holds_the_swing),
-      cmocka_unit_test(rounding_is_free_and_nan_is_not),
-      cmocka_unit_test(it_stops_at_the_margin),
-      cmocka_unit_test(beyond_a_fence_only_what_leads_back_moves),
-      cmocka_unit_test(its_own_momentum_counts),
-      cmocka_unit_test(sliding_along_a_plane_does_not_chatter),
-      cmocka_unit_test(a_design_lies_where_the_ground_was_felt),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

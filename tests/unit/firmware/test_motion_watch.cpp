@@ -60,7 +60,7 @@ Cylinder settled(double spool, unsigned axis = 0) {
 
 /// Closed: so far it may go, either way, and not a bit further. No time passes, so nothing is
 /// forgotten.
-void a_closed_spool_holds_its_cylinder(void**) {
+TEST(a_closed_spool_holds_its_cylinder) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       Cylinder cylinder = settled(0.0, axis);
@@ -73,7 +73,7 @@ void a_closed_spool_holds_its_cylinder(void**) {
 }
 
 /// Within its deadband a spool is closed: a cylinder that runs then does so by itself.
-void the_deadband_is_closed(void**) {
+TEST(the_deadband_is_closed) {
   for (const double sign : {1.0, -1.0}) {
     Cylinder closed = settled(sign * 0.25);
     closed.stroke_m = kRest_m + sign * 0.25;
@@ -86,7 +86,7 @@ void the_deadband_is_closed(void**) {
 
 /// Open: with the spool as far as it likes, against it so far and no further, counted from the
 /// furthest that it had come.
-void an_open_spool_leads_its_cylinder(void**) {
+TEST(an_open_spool_leads_its_cylinder) {
   for (const double sign : {1.0, -1.0}) {
     Cylinder cylinder = settled(sign * kOpen);
     for (int n = 1; n <= 4; ++n) {
@@ -101,7 +101,7 @@ void an_open_spool_leads_its_cylinder(void**) {
 }
 
 /// 0.5 s after a spool has closed, opened or turned round, whatever happens is the old oil's.
-void oil_may_ring_down(void**) {
+TEST(oil_may_ring_down) {
   const double ways[][2] = {{kOpen, 0.0},  {-kOpen, 0.0},   {0.0, kOpen},
                             {0.0, -kOpen}, {kOpen, -kOpen}, {-kOpen, kOpen}};
   for (const auto& way : ways) {
@@ -118,7 +118,7 @@ void oil_may_ring_down(void**) {
 }
 
 /// The time begins again with each change.
-void each_change_settles_anew(void**) {
+TEST(each_change_settles_anew) {
   Cylinder cylinder = settled(kOpen);
   for (int change = 0; change < 6; ++change) {
     cylinder.spool = change % 2 == 0 ? 0.0 : kOpen;
@@ -130,7 +130,7 @@ void each_change_settles_anew(void**) {
 }
 
 /// A leak of 5 mm/s is no uncommanded motion over any distance; 20 mm/s are.
-void leakage_is_forgotten(void**) {
+TEST(leakage_is_forgotten) {
   Cylinder leaking = settled(0.0);
   Cylinder sinking = settled(0.0);
   bool sunk = false;
@@ -144,7 +144,7 @@ void leakage_is_forgotten(void**) {
 }
 
 /// 50 mm twice: too much within a second, forgotten after a minute.
-void forgetting_takes_seconds(void**) {
+TEST(forgetting_takes_seconds) {
   for (const bool soon : {true, false}) {
     Cylinder cylinder = settled(0.0);
     cylinder.stroke_m += 0.05;
@@ -163,7 +163,7 @@ void forgetting_takes_seconds(void**) {
 }
 
 /// Asked for 0.125 m/s: 8 cycles are what is allowed, the ninth is too much.
-void a_stroke_that_stands_still_is_stuck(void**) {
+TEST(a_stroke_that_stands_still_is_stuck) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       Cylinder cylinder = settled(sign * kOpen, axis);
@@ -180,7 +180,7 @@ void a_stroke_that_stands_still_is_stuck(void**) {
 }
 
 /// Closed, open the other way, or nothing asked: it may well stand still.
-void only_what_is_asked_and_led_can_be_stuck(void**) {
+TEST(only_what_is_asked_and_led_can_be_stuck) {
   const double rows[][2] = {{0.0, 0.125},    {0.0, -0.125}, {kOpen, -0.125},
                             {-kOpen, 0.125}, {kOpen, 0.0},  {-kOpen, 0.0}};
   for (const auto& row : rows) {
@@ -193,7 +193,7 @@ void only_what_is_asked_and_led_can_be_stuck(void**) {
 }
 
 /// Half a millimetre is within what a sensor at rest may say, more is motion.
-void noise_is_no_motion(void**) {
+TEST(noise_is_no_motion) {
   for (const bool moves : {false, true}) {
     Cylinder cylinder;
     cylinder.stroke_m = 0.0;  // Where the watch begins: the difference is exact.
@@ -214,7 +214,7 @@ void noise_is_no_motion(void**) {
 }
 
 /// What was asked before a pause counts on: no flow came of it either way.
-void what_was_asked_adds_up(void**) {
+TEST(what_was_asked_adds_up) {
   Cylinder cylinder = settled(kOpen);
   for (int n = 0; n < 8; ++n) {
     cylinder.asked_mps = 0.125;
@@ -248,19 +248,19 @@ double stuck_after_s(double asked_mps) {
   return 600.0;
 }
 
-void what_is_asked_for_and_does_not_come_is_stuck(void**) {
+TEST(what_is_asked_for_and_does_not_come_is_stuck) {
   assert_near(stuck_after_s(0.1), 0.3, 0.03);
   assert_near(stuck_after_s(-0.02), 1.6, 0.1);
 }
 
 /// A blade on level ground is asked for what leaks, for minutes.
-void held_against_leakage_it_is_not_stuck(void**) {
+TEST(held_against_leakage_it_is_not_stuck) {
   assert_near(stuck_after_s(0.0005), 600.0, 0.0);
   assert_near(stuck_after_s(-0.0025), 600.0, 0.0);
 }
 
 /// A stroke that stands still is stuck where its side is open.
-void each_side_has_its_own_dead_band(void**) {
+TEST(each_side_has_its_own_dead_band) {
   for (const double spool_ratio : {0.35, -0.35}) {
     DriveRow row;
     row.answer = test::two_sides();
@@ -281,22 +281,4 @@ void each_side_has_its_own_dead_band(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_closed_spool_holds_its_cylinder),
-      cmocka_unit_test(the_deadband_is_closed),
-      cmocka_unit_test(an_open_spool_leads_its_cylinder),
-      cmocka_unit_test(oil_may_ring_down),
-      cmocka_unit_test(each_change_settles_anew),
-      cmocka_unit_test(leakage_is_forgotten),
-      cmocka_unit_test(forgetting_takes_seconds),
-      cmocka_unit_test(a_stroke_that_stands_still_is_stuck),
-      cmocka_unit_test(only_what_is_asked_and_led_can_be_stuck),
-      cmocka_unit_test(noise_is_no_motion),
-      cmocka_unit_test(what_was_asked_adds_up),
-      cmocka_unit_test(what_is_asked_for_and_does_not_come_is_stuck),
-      cmocka_unit_test(held_against_leakage_it_is_not_stuck),
-      cmocka_unit_test(each_side_has_its_own_dead_band),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

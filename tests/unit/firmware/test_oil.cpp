@@ -85,7 +85,7 @@ double holding_n(const Eigen::Vector3d& strokes_m, double carried_kg) {
   return force_n;
 }
 
-void what_is_carried_is_weighed(void**) {
+TEST(what_is_carried_is_weighed) {
   for (const double arm_m : {0.3, 0.7, 1.0}) {
     const Eigen::Vector3d strokes_m(0.6, arm_m, 0.5);
     const KinematicState now = state_at(strokes_m[0], strokes_m[1], strokes_m[2]);
@@ -100,7 +100,7 @@ void what_is_carried_is_weighed(void**) {
   }
 }
 
-void inertia_is_that_of_three_bodies(void**) {
+TEST(inertia_is_that_of_three_bodies) {
   for (const double arm_m : {0.3, 0.7, 1.2}) {
     const Eigen::Vector3d strokes_m(0.6, arm_m, 0.5);
     const KinematicState now = state_at(strokes_m[0], strokes_m[1], strokes_m[2]);
@@ -113,7 +113,7 @@ void inertia_is_that_of_three_bodies(void**) {
   }
 }
 
-void modes_solve_their_equation(void**) {
+TEST(modes_solve_their_equation) {
   const KinematicState now = state_at(0.6, 0.7, 0.5);
   const OilModes modes = modes_at(now);
   const Eigen::Matrix2d inertia = stroke_inertia_kg(machine().oil, machine().geometry, now, 0.0);
@@ -128,7 +128,7 @@ void modes_solve_their_equation(void**) {
   assert_true((modes.shape * modes.inverse - Eigen::Matrix2d::Identity()).norm() < 1e-12);
 }
 
-void a_load_slows_both_modes(void**) {
+TEST(a_load_slows_both_modes) {
   const KinematicState now = state_at(0.6, 0.7, 0.5);
   const OilModes empty = modes_at(now);
   const OilModes loaded = modes_at(now, 1000.0);
@@ -136,7 +136,7 @@ void a_load_slows_both_modes(void**) {
   assert_true(loaded.omega_radps[1] < 0.999 * empty.omega_radps[1]);
 }
 
-void an_empty_chamber_is_softer(void**) {
+TEST(an_empty_chamber_is_softer) {
   const CylinderGeometry& boom = machine().geometry.cylinder[kBoom];
   const auto stiffness = [&](double cap_pa, double rod_pa) {
     return oil_column_npm(machine().oil, boom, 2e-3, 0.6, {cap_pa, rod_pa});
@@ -208,7 +208,7 @@ double left_of_a_push_m(double assumed_radps, double true_radps, int late_cycles
 /// From oil of 0.6 GPa to 2 GPa where 0.8 GPa is assumed; up to 1.2 GPa with a cycle of delay
 /// besides that is not told, and up to 1.7 GPa for all but the fastest modes. Nothing but the
 /// feedback damps the mode.
-void a_push_is_undone_whatever_the_oil(void**) {
+TEST(a_push_is_undone_whatever_the_oil) {
   for (const double assumed_radps : {10.0, 15.0, 20.0, 25.0, 35.0, 45.0}) {
     for (const double oil_gpa : {0.6, 0.8, 1.0, 1.2, 1.7, 2.0}) {
       const double true_radps = assumed_radps * std::sqrt(oil_gpa / 0.8);
@@ -220,11 +220,11 @@ void a_push_is_undone_whatever_the_oil(void**) {
 }
 
 /// Where the margins end: stiff oil, a fast mode and a cycle that is not told, all at once.
-void beyond_its_margins_it_rings(void**) {
+TEST(beyond_its_margins_it_rings) {
   assert_true(left_of_a_push_m(45.0, 45.0 * std::sqrt(2.0), 1) > kMostLeft_m);
 }
 
-void a_flow_error_is_learnt(void**) {
+TEST(a_flow_error_is_learnt) {
   const OilGains gains{OilDesign{}};
   const OilModes modes = plain_modes(20.0);
   OneMode plant{20.0, 0.018, 0};
@@ -242,7 +242,7 @@ void a_flow_error_is_learnt(void**) {
   assert_near(state.speed_mps[0], plant.state[1], 5e-4);
 }
 
-void the_weight_moves_slowly_and_ends_with_a_fault(void**) {
+TEST(the_weight_moves_slowly_and_ends_with_a_fault) {
   const OilGains gains{OilDesign{}};
   const OilModes modes = plain_modes(20.0);
   OilState state;
@@ -260,7 +260,7 @@ void the_weight_moves_slowly_and_ends_with_a_fault(void**) {
   assert_near(state.weight, 0.0, 0.0);
 }
 
-void pressures_that_are_not_known_correct_nothing(void**) {
+TEST(pressures_that_are_not_known_correct_nothing) {
   const OilGains gains{OilDesign{}};
   const OilModes modes = plain_modes(20.0);
   OilState state;
@@ -273,7 +273,7 @@ void pressures_that_are_not_known_correct_nothing(void**) {
 }
 
 /// The same spool, stepped finely, is where it was to be after two cycles.
-void a_led_spool_arrives_in_two_cycles(void**) {
+TEST(a_led_spool_arrives_in_two_cycles) {
   constexpr double kTime_s = 0.02;
   constexpr double kFine_s = 1e-5;
   SpoolModel model;
@@ -295,7 +295,7 @@ void a_led_spool_arrives_in_two_cycles(void**) {
 
 /// From rest no duty is more than four times what is wanted, however slow the spool is; where it is
 /// to be, it is after its time constant.
-void a_slow_spool_is_not_driven_to_its_ends(void**) {
+TEST(a_slow_spool_is_not_driven_to_its_ends) {
   for (const double time_s : {0.02, 0.03, 0.045, 0.1}) {
     SpoolModel model;
     const int within = static_cast<int>(std::lround(2.0 * time_s / 0.01));
@@ -308,7 +308,7 @@ void a_slow_spool_is_not_driven_to_its_ends(void**) {
 
 /// One side of boom or arm that is late or slow is enough to leave the oil to the servo; the
 /// bucket, which has the servo always, does not count.
-void one_late_side_leaves_it_to_the_servo(void**) {
+TEST(one_late_side_leaves_it_to_the_servo) {
   const auto quick = [](int drive, bool extends, double SaidAnswer::*time, double time_s) {
     ExcavatorProfile profile = machine();
     profile.valve.answer[static_cast<unsigned>(drive)].side(extends).*time = time_s;
@@ -329,21 +329,4 @@ void one_late_side_leaves_it_to_the_servo(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_carried_is_weighed),
-      cmocka_unit_test(inertia_is_that_of_three_bodies),
-      cmocka_unit_test(a_load_slows_both_modes),
-      cmocka_unit_test(modes_solve_their_equation),
-      cmocka_unit_test(an_empty_chamber_is_softer),
-      cmocka_unit_test(a_push_is_undone_whatever_the_oil),
-      cmocka_unit_test(beyond_its_margins_it_rings),
-      cmocka_unit_test(a_flow_error_is_learnt),
-      cmocka_unit_test(the_weight_moves_slowly_and_ends_with_a_fault),
-      cmocka_unit_test(pressures_that_are_not_known_correct_nothing),
-      cmocka_unit_test(a_led_spool_arrives_in_two_cycles),
-      cmocka_unit_test(a_slow_spool_is_not_driven_to_its_ends),
-      cmocka_unit_test(one_late_side_leaves_it_to_the_servo),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

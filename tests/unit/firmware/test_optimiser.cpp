@@ -32,7 +32,7 @@ bool feasible(const McvInput& input, double lambda) {
 }
 
 /// Over the gap, at its lower end, and Algorithm 1 wherever its halving led it.
-void policies_differ_where_the_set_splits(void**) {
+TEST(policies_differ_where_the_set_splits) {
   const McvInput input = split_input(kGapCap_pa);
   const double global = lambda_of(input, McvPolicy::kGlobal);
   const double connected = lambda_of(input, McvPolicy::kConnected);
@@ -44,7 +44,7 @@ void policies_differ_where_the_set_splits(void**) {
   assert_false(feasible(input, connected + 1e-6));
 }
 
-void policies_agree_where_it_does_not(void**) {
+TEST(policies_agree_where_it_does_not) {
   for (const double cap_pa : {0.6e6, 4e6}) {
     const McvInput input = split_input(cap_pa);
     const double global = lambda_of(input, McvPolicy::kGlobal);
@@ -55,7 +55,7 @@ void policies_agree_where_it_does_not(void**) {
 
 /// Bounded from above, global is the largest feasible lambda under the bound: inside the gap the
 /// end of the interval below it.
-void a_bound_is_kept(void**) {
+TEST(a_bound_is_kept) {
   const McvInput input = split_input(kGapCap_pa);
   const double connected = lambda_of(input, McvPolicy::kConnected);
   assert_near(lambda_of(input, McvPolicy::kGlobal, {0.9, 0.0}), 0.9, 0.0);
@@ -67,7 +67,7 @@ void a_bound_is_kept(void**) {
 
 /// With a reserve lambda is what the same loads, heavier by it, would allow; the figures are those
 /// of the loads as they are.
-void a_reserve_stays_in_hand(void**) {
+TEST(a_reserve_stays_in_hand) {
   constexpr double kReserve_n = 4000.0;
   const McvInput input = split_input(4e6);
   for (const McvPolicy policy : kPolicies) {
@@ -81,7 +81,7 @@ void a_reserve_stays_in_hand(void**) {
   }
 }
 
-void bad_ranges_are_refused(void**) {
+TEST(bad_ranges_are_refused) {
   const McvInput input = split_input(kGapCap_pa);
   for (const LambdaRange& range : {LambdaRange{0.0, 0.0},
                                    {-1.0, 0.0},
@@ -100,7 +100,7 @@ void bad_ranges_are_refused(void**) {
 
 /// (43): with the pump's pressure at standstill taken from the machine's own figures, what is
 /// lacking is the load and the offset less that force.
-void standstill_says_who_lacks_what(void**) {
+TEST(standstill_says_who_lacks_what) {
   McvInput input = split_input(kGapCap_pa);
   input.velocity_mps = {0.1, 0.0, 0.05};
   input.cap_pressure_pa = {60e6, 4e6, 30e6};
@@ -124,7 +124,7 @@ void standstill_says_who_lacks_what(void**) {
 }
 
 /// What the limit lacks at lambda = 1 is what evaluating there shows.
-void shortfall_is_the_margin_at_full_speed(void**) {
+TEST(shortfall_is_the_margin_at_full_speed) {
   const McvInput input = split_input(4e6);
   const McvMachine machine = kim();
   const McvSolution solution = solve_mcv(machine, input, McvPolicy::kGlobal);
@@ -139,7 +139,7 @@ void shortfall_is_the_margin_at_full_speed(void**) {
 
 /// Remark 3: a check valve in the in-flow line takes A_in (lambda Q_in / c)^2 of the force; at the
 /// limit of travel what is left is what full opening needs.
-void in_flow_check_valve_takes_its_force(void**) {
+TEST(in_flow_check_valve_takes_its_force) {
   McvInput input;
   input.velocity_mps = {0.0, 0.0, 0.3};
   input.cap_pressure_pa = {0.0, 0.0, 6e6};
@@ -163,7 +163,7 @@ void in_flow_check_valve_takes_its_force(void**) {
 
 /// A pump that exactly feeds its line at full speed holds no pressure there: the search starts at
 /// r = 0, where the driving length is 0 and still grows.
-void a_pump_that_exactly_feeds_its_line(void**) {
+TEST(a_pump_that_exactly_feeds_its_line) {
   McvMachine machine = kim();
   McvInput input;
   input.velocity_mps = {0.0, 0.0, 0.1};
@@ -178,7 +178,7 @@ void a_pump_that_exactly_feeds_its_line(void**) {
 
 /// Without pump flow 1 / lambda is so steep in r that rounding moves the end by a tenth, and where
 /// a pump only just feeds its line no Newton step gets short: both have been left unfinished.
-void rounding_leaves_nothing_unfinished(void**) {
+TEST(rounding_leaves_nothing_unfinished) {
   for (const std::uint64_t seed : {43575u, 9441u}) {
     const test::RandomCase problem = test::random_case(seed);
     for (const McvPolicy policy : kPolicies) {
@@ -190,7 +190,7 @@ void rounding_leaves_nothing_unfinished(void**) {
 }
 
 /// Every corner of the inputs, sound and not, by every policy.
-void corners_are_safe(void**) {
+TEST(corners_are_safe) {
   const McvMachine machine = kim();
   const std::array velocities{0.0, -0.0, 5e-324, 1e-9, 0.3, -0.3, 1e3, -1e300, kNan, kInfinity};
   const std::array pressures{0.0, -0.0, 5e-324, 1e7, 1e300, -1.0, kNan, kInfinity};
@@ -229,7 +229,7 @@ void corners_are_safe(void**) {
 }
 
 /// A share of a reserve is that much less of it, also where half of what is left over bounds it.
-void a_share_of_the_reserve(void**) {
+TEST(a_share_of_the_reserve) {
   const McvInput input = split_input(4e6);
   const auto at = [&](double reserve_n, double share) {
     return lambda_of(input, McvPolicy::kGlobal, {1.0, reserve_n, 1.0, share});
@@ -247,7 +247,7 @@ void a_share_of_the_reserve(void**) {
 
 /// Up to `hold` the share is enough, over it the whole reserve is asked for: the one solve ends
 /// where two would, one for what may be reached and one for what may be held.
-void what_is_held_needs_its_share_alone(void**) {
+TEST(what_is_held_needs_its_share_alone) {
   constexpr double kReserve_n = 8000.0;
   constexpr double kShare = 0.25;
   const McvInput input = split_input(4e6);
@@ -280,7 +280,7 @@ void what_is_held_needs_its_share_alone(void**) {
 
 /// Where the set splits, what is held under the gap does not jump over it, but by the policy that
 /// is free to, and for it only with the whole reserve.
-void a_gap_is_met_from_where_lambda_is_held(void**) {
+TEST(a_gap_is_met_from_where_lambda_is_held) {
   const McvInput input = split_input(kGapCap_pa);
   const double connected = lambda_of(input, McvPolicy::kConnected);
   const LambdaRange low{1.0, 10.0, 0.5 * connected, 0.5};
@@ -295,7 +295,7 @@ void a_gap_is_met_from_where_lambda_is_held(void**) {
 
 /// Where a line has no flow of its own and an axis regenerates, rounding shows in r: what the
 /// search finds is then brought to the end of its interval by halving.
-void a_starved_line_ends_where_halving_says(void**) {
+TEST(a_starved_line_ends_where_halving_says) {
   constexpr int kCases = test::rounds(20000, 1000);
   int held = 0;
   for (std::uint64_t seed = 0; seed < kCases; ++seed) {
@@ -313,7 +313,7 @@ void a_starved_line_ends_where_halving_says(void**) {
 
 /// Where all is feasible fixed is what the others find; where it is not, it goes on at full speed
 /// with the hindered spool wide open, and says who hinders.
-void fixed_asks_nobody(void**) {
+TEST(fixed_asks_nobody) {
   const McvInput light = split_input(0.6e6);
   const McvSolution free = solve_mcv(kim(), light, McvPolicy::kFixed);
   const McvSolution global = solve_mcv(kim(), light, McvPolicy::kGlobal);
@@ -339,24 +339,4 @@ void fixed_asks_nobody(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(policies_differ_where_the_set_splits),
-      cmocka_unit_test(policies_agree_where_it_does_not),
-      cmocka_unit_test(a_bound_is_kept),
-      cmocka_unit_test(a_reserve_stays_in_hand),
-      cmocka_unit_test(bad_ranges_are_refused),
-      cmocka_unit_test(a_share_of_the_reserve),
-      cmocka_unit_test(what_is_held_needs_its_share_alone),
-      cmocka_unit_test(a_gap_is_met_from_where_lambda_is_held),
-      cmocka_unit_test(a_starved_line_ends_where_halving_says),
-      cmocka_unit_test(fixed_asks_nobody),
-      cmocka_unit_test(standstill_says_who_lacks_what),
-      cmocka_unit_test(shortfall_is_the_margin_at_full_speed),
-      cmocka_unit_test(in_flow_check_valve_takes_its_force),
-      cmocka_unit_test(a_pump_that_exactly_feeds_its_line),
-      cmocka_unit_test(rounding_leaves_nothing_unfinished),
-      cmocka_unit_test(corners_are_safe),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

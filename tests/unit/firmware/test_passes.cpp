@@ -38,7 +38,7 @@ PassState stands(PassState state, double at_m, int cycles) {
   return state;
 }
 
-void what_is_met_in_one_pass_is_done_with_it(void**) {
+TEST(what_is_met_in_one_pass_is_done_with_it) {
   const PassState on = goes({}, -1.0, 9.9, 0.024);
   assert_false(on.finished || on.left);
   const PassState done = goes(on, 9.9, 10.1, 0.0);
@@ -48,7 +48,7 @@ void what_is_met_in_one_pass_is_done_with_it(void**) {
 }
 
 /// Stop with the blade rising, back to a run-up before the first place, halt, next pass.
-void what_is_left_is_gone_back_for(void**) {
+TEST(what_is_left_is_gone_back_for) {
   PassState state = goes({}, -1.0, 4.0, 0.0);
   state = goes(state, 4.0, 6.0, 0.1);
   state = goes(state, 6.0, 10.01, 0.0);
@@ -78,7 +78,7 @@ PassState next(PassState state, double push, double lift_m) {
 }
 
 /// By 0.9 of its force over what the pass before took, and no more than 1.6 times as deep.
-void a_pass_with_force_to_spare_makes_the_next_deeper(void**) {
+TEST(a_pass_with_force_to_spare_makes_the_next_deeper) {
   assert_near(pass_floor_m(design(), {}), -0.2, 1e-12);
   assert_near(pass_floor_m(design(), next({}, 0.9, 0.0)), -0.4, 1e-12);
   assert_near(pass_floor_m(design(), next({}, 0.75, 0.0)), -0.44, 1e-12);
@@ -88,7 +88,7 @@ void a_pass_with_force_to_spare_makes_the_next_deeper(void**) {
 }
 
 /// A lift of 50 mm all the way is half of 0.2 m: 0.7 of the depth, of which half is taken again.
-void a_pass_that_was_lifted_makes_the_next_less_deep(void**) {
+TEST(a_pass_that_was_lifted_makes_the_next_less_deep) {
   const PassState second = next({}, 1.1, 0.05);
   assert_near(second.step_m, 0.14, 1e-12);
   assert_near(pass_floor_m(design(), second), -0.27, 1e-3);
@@ -103,7 +103,7 @@ void a_pass_that_was_lifted_makes_the_next_less_deep(void**) {
 
 /// The blade on its way down at the beginning leaves nothing, however late it is, before it has
 /// come down or to what is to be cut: or each pass would begin before the one before.
-void a_blade_that_comes_down_leaves_nothing(void**) {
+TEST(a_blade_that_comes_down_leaves_nothing) {
   PassState state = goes({}, -1.0, 4.0, 0.0);
   state = goes(goes(state, 4.0, 6.0, 0.1), 6.0, 10.01, 0.0);
   state = stands(goes(stands(state, 10.2, 200), 10.2, 2.7, 0.25), 2.7, 2);
@@ -123,7 +123,7 @@ void a_blade_that_comes_down_leaves_nothing(void**) {
 }
 
 /// 10 mm of noise on 18 mm that stay.
-void noise_is_no_ground_that_is_left(void**) {
+TEST(noise_is_no_ground_that_is_left) {
   PassState state;
   for (int n = 0; n < 1000; ++n) {
     const double error_m = 0.018 + (n % 2 == 0 ? 0.01 : -0.01);
@@ -133,7 +133,7 @@ void noise_is_no_ground_that_is_left(void**) {
 }
 
 /// A place where the edge can't go lower is told, and not gone back for again and again.
-void two_passes_that_lower_nothing_are_the_last(void**) {
+TEST(two_passes_that_lower_nothing_are_the_last) {
   PassState state = goes(goes({}, 0.0, 5.0, 0.1), 5.01, 10.01, 0.0);
   state = stands(goes(stands(state, 10.2, 200), 10.2, -1.3, 0.25), -1.3, 2);
   assert_int_equal(state.pass, 2);
@@ -147,7 +147,7 @@ void two_passes_that_lower_nothing_are_the_last(void**) {
   assert_int_equal(lower.vain, 0);
 }
 
-void there_are_no_more_than_are_allowed(void**) {
+TEST(there_are_no_more_than_are_allowed) {
   PassState state;
   for (int pass = 1; pass < 4; ++pass) {
     state = goes(state, 0.0, 10.01, 0.1 / pass);
@@ -163,16 +163,4 @@ void there_are_no_more_than_are_allowed(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_met_in_one_pass_is_done_with_it),
-      cmocka_unit_test(what_is_left_is_gone_back_for),
-      cmocka_unit_test(a_pass_with_force_to_spare_makes_the_next_deeper),
-      cmocka_unit_test(a_pass_that_was_lifted_makes_the_next_less_deep),
-      cmocka_unit_test(a_blade_that_comes_down_leaves_nothing),
-      cmocka_unit_test(noise_is_no_ground_that_is_left),
-      cmocka_unit_test(two_passes_that_lower_nothing_are_the_last),
-      cmocka_unit_test(there_are_no_more_than_are_allowed),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -58,7 +58,7 @@ int cycles_to(double each, double most, double forget_s) {
   return 0;
 }
 
-void what_fits_is_well(void**) {
+TEST(what_fits_is_well) {
   Body body;
   body.valid.climb_mps = std::tan(0.2);
   body.valid.pitch_rad = 0.2;
@@ -67,7 +67,7 @@ void what_fits_is_well(void**) {
 }
 
 /// Nothing is known of what was before: a machine that stands anywhere begins well.
-void the_first_cycle_is_well(void**) {
+TEST(the_first_cycle_is_well) {
   Body body;
   body.valid.position_m = 1000.0;
   body.valid.height_m = -30.0;
@@ -78,7 +78,7 @@ void the_first_cycle_is_well(void**) {
   assert_false(body.step());
 }
 
-void a_frozen_position_is_seen(void**) {
+TEST(a_frozen_position_is_seen) {
   for (const double way : {1.0, -1.0}) {
     Body body;
     body.valid.velocity_mps = way;
@@ -89,7 +89,7 @@ void a_frozen_position_is_seen(void**) {
   }
 }
 
-void a_frozen_height_is_seen(void**) {
+TEST(a_frozen_height_is_seen) {
   for (const double way : {1.0, -1.0}) {
     Body body;
     body.valid.pitch_rad = way * 0.2;
@@ -100,7 +100,7 @@ void a_frozen_height_is_seen(void**) {
   }
 }
 
-void a_frozen_pitch_is_seen(void**) {
+TEST(a_frozen_pitch_is_seen) {
   for (const double way : {1.0, -1.0}) {
     Body body;
     body.valid.pitch_rate_radps = way * 0.1;
@@ -110,7 +110,7 @@ void a_frozen_pitch_is_seen(void**) {
   }
 }
 
-void a_frozen_roll_is_seen(void**) {
+TEST(a_frozen_roll_is_seen) {
   for (const double way : {1.0, -1.0}) {
     Body body;
     body.valid.roll_rate_radps = way * 0.1;
@@ -121,7 +121,7 @@ void a_frozen_roll_is_seen(void**) {
 }
 
 /// Aslant by 0.1 rad it has to leave its track; an offset that does so is well.
-void a_frozen_offset_is_seen(void**) {
+TEST(a_frozen_offset_is_seen) {
   for (const double way : {1.0, -1.0}) {
     Body body;
     body.valid.course.heading_rad = way * 0.1;
@@ -149,7 +149,7 @@ Body along(double curvature_pm, double velocity_mps) {
 }
 
 /// Forward and backward, to the left and to the right; the offset is as its heading says.
-void a_turn_is_well(void**) {
+TEST(a_turn_is_well) {
   for (const double curvature_pm : {0.1, -0.1}) {
     for (const double velocity_mps : {1.0, -1.0}) {
       Body keeps = along(curvature_pm, velocity_mps);
@@ -169,7 +169,7 @@ void a_turn_is_well(void**) {
 }
 
 /// Where the curve begins it goes on showing 0.
-void a_frozen_yaw_rate_is_seen(void**) {
+TEST(a_frozen_yaw_rate_is_seen) {
   for (const double curvature_pm : {0.1, -0.1}) {
     for (const double velocity_mps : {1.0, -1.0}) {
       Body body = along(0.0, velocity_mps);
@@ -180,7 +180,7 @@ void a_frozen_yaw_rate_is_seen(void**) {
   }
 }
 
-void a_yaw_rate_that_is_off_is_seen(void**) {
+TEST(a_yaw_rate_that_is_off_is_seen) {
   for (const double off_radps : {0.3, -0.3}) {
     for (const double curvature_pm : {0.0, 0.1}) {
       Body body = along(curvature_pm, 1.0);
@@ -192,7 +192,7 @@ void a_yaw_rate_that_is_off_is_seen(void**) {
 }
 
 /// It turns out of the curve, and its heading says that it does not.
-void a_frozen_heading_is_seen(void**) {
+TEST(a_frozen_heading_is_seen) {
   for (const double turns_radps : {0.05, -0.05}) {
     Body body = along(0.1, 1.0);
     body.valid.course.yaw_rate_radps += turns_radps;
@@ -202,7 +202,7 @@ void a_frozen_heading_is_seen(void**) {
 }
 
 /// Height and climb say another slope than the pitch; what turns may rise by its turn.
-void another_slope_is_seen(void**) {
+TEST(another_slope_is_seen) {
   for (const double rate_radps : {0.0, 0.1, -0.1}) {
     for (const double climb_mps : {0.2, -0.2}) {
       Body body;
@@ -231,7 +231,7 @@ void another_slope_is_seen(void**) {
 }
 
 /// Slip is healthy up to its share; the source nearest to the velocity speaks for it.
-void tracks_that_run_on_are_seen(void**) {
+TEST(tracks_that_run_on_are_seen) {
   for (const double tracks_mps : {2.0, -2.0}) {
     const double slips_mps = (1.0 - kMostSlip) * 2.0 - kSlipMargin_mps;
     const double way = tracks_mps > 0.0 ? 1.0 : -1.0;
@@ -255,7 +255,7 @@ void tracks_that_run_on_are_seen(void**) {
                    cycles_to(0.01 * 0.25, kMostSlipped_m, kPoseForget_s));
 }
 
-void one_source_that_agrees_is_enough(void**) {
+TEST(one_source_that_agrees_is_enough) {
   for (int agrees = 0; agrees < 3; ++agrees) {
     Body body;
     double* const speeds_mps[] = {&body.speeds.left_mps, &body.speeds.right_mps,
@@ -270,7 +270,7 @@ void one_source_that_agrees_is_enough(void**) {
 
 /// Tracks that run against each other, as far from the body as the transmission: always the same
 /// one speaks, or the residual would come and go.
-void of_sources_as_far_off_the_transmission_counts(void**) {
+TEST(of_sources_as_far_off_the_transmission_counts) {
   Body body;
   body.valid.velocity_mps = 0.0;
   body.speeds = {-1.0, -1.0, 1.0};
@@ -280,7 +280,7 @@ void of_sources_as_far_off_the_transmission_counts(void**) {
 }
 
 /// A cycle of no length keeps a residual to the bit.
-void the_most_itself_is_well(void**) {
+TEST(the_most_itself_is_well) {
   const struct {
     double PoseWatchState::*residual;
     double most;
@@ -305,7 +305,7 @@ void the_most_itself_is_well(void**) {
 }
 
 /// Along a slope the tracks run faster than x grows.
-void speed_is_that_along_the_ground(void**) {
+TEST(speed_is_that_along_the_ground) {
   Body body;
   body.valid.pitch_rad = 0.75;
   body.valid.climb_mps = std::tan(0.75);
@@ -318,7 +318,7 @@ void speed_is_that_along_the_ground(void**) {
   assert_int_equal(body.cycles_until_seen([](DozerValid&) {}), 0);
 }
 
-void no_number_does_not_fit(void**) {
+TEST(no_number_does_not_fit) {
   Body body;
   body.step();
   body.valid.velocity_mps = std::numeric_limits<double>::quiet_NaN();
@@ -326,7 +326,7 @@ void no_number_does_not_fit(void**) {
 }
 
 /// A long cycle forgets all at most.
-void a_long_cycle_forgets(void**) {
+TEST(a_long_cycle_forgets) {
   Body body;
   body.step();
   body.state.ahead_m = body.state.climbed_m = body.state.turned_rad = body.state.yawed_rad =
@@ -339,27 +339,4 @@ void a_long_cycle_forgets(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_fits_is_well),
-      cmocka_unit_test(the_first_cycle_is_well),
-      cmocka_unit_test(a_frozen_position_is_seen),
-      cmocka_unit_test(a_frozen_height_is_seen),
-      cmocka_unit_test(a_frozen_pitch_is_seen),
-      cmocka_unit_test(a_frozen_roll_is_seen),
-      cmocka_unit_test(a_frozen_offset_is_seen),
-      cmocka_unit_test(a_turn_is_well),
-      cmocka_unit_test(a_frozen_yaw_rate_is_seen),
-      cmocka_unit_test(a_yaw_rate_that_is_off_is_seen),
-      cmocka_unit_test(a_frozen_heading_is_seen),
-      cmocka_unit_test(another_slope_is_seen),
-      cmocka_unit_test(tracks_that_run_on_are_seen),
-      cmocka_unit_test(one_source_that_agrees_is_enough),
-      cmocka_unit_test(of_sources_as_far_off_the_transmission_counts),
-      cmocka_unit_test(the_most_itself_is_well),
-      cmocka_unit_test(speed_is_that_along_the_ground),
-      cmocka_unit_test(no_number_does_not_fit),
-      cmocka_unit_test(a_long_cycle_forgets),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

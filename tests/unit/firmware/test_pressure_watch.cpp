@@ -63,7 +63,7 @@ void in_each_chamber(Check check) {
   }
 }
 
-void pressures_that_live_are_believed(void**) {
+TEST(pressures_that_live_are_believed) {
   in_each_chamber([](Chamber chamber) {
     for (int n = 0; n < 300; ++n) {
       chamber.pressure_pa = 5e6 + n;
@@ -74,7 +74,7 @@ void pressures_that_live_are_believed(void**) {
 }
 
 /// 0.3 s at the rail are a peak; longer is a sensor at its end.
-void a_sensor_at_its_rail_is_wrong(void**) {
+TEST(a_sensor_at_its_rail_is_wrong) {
   in_each_chamber([](Chamber chamber) {
     chamber.pressure_pa = kRail_pa;
     assert_false(chamber.wrong(0.3));
@@ -90,7 +90,7 @@ void a_sensor_at_its_rail_is_wrong(void**) {
 }
 
 /// Peaks do not add up.
-void a_peak_ends_with_itself(void**) {
+TEST(a_peak_ends_with_itself) {
   in_each_chamber([](Chamber chamber) {
     for (int n = 0; n < 20; ++n) {
       chamber.pressure_pa = kRail_pa;
@@ -102,7 +102,7 @@ void a_peak_ends_with_itself(void**) {
 }
 
 /// 0.06 m of motion with the same number; either way; until it changes.
-void a_number_that_stands_while_the_cylinder_moves_is_stuck(void**) {
+TEST(a_number_that_stands_while_the_cylinder_moves_is_stuck) {
   for (const double sign : {1.0, -1.0}) {
     in_each_chamber([sign](Chamber chamber) {
       assert_false(chamber.wrong());  // At stroke 0 the number was new.
@@ -120,7 +120,7 @@ void a_number_that_stands_while_the_cylinder_moves_is_stuck(void**) {
 }
 
 /// A cylinder that swings about its place goes a way too; what a sensor trembles by is none.
-void to_and_fro_adds_up_and_trembling_does_not(void**) {
+TEST(to_and_fro_adds_up_and_trembling_does_not) {
   in_each_chamber([](Chamber swinging) {
     Chamber trembling = swinging;
     int cycles = 0;
@@ -136,7 +136,7 @@ void to_and_fro_adds_up_and_trembling_does_not(void**) {
   });
 }
 
-void a_cylinder_at_rest_has_one_pressure(void**) {
+TEST(a_cylinder_at_rest_has_one_pressure) {
   Chamber chamber;
   for (int n = 0; n < 1000; ++n) {
     assert_false(chamber.wrong());
@@ -144,7 +144,7 @@ void a_cylinder_at_rest_has_one_pressure(void**) {
 }
 
 /// A chamber without oil has one pressure for long, whatever its sensor's zero.
-void an_empty_chamber_is_not_stuck(void**) {
+TEST(an_empty_chamber_is_not_stuck) {
   for (const double empty_pa : {kEmpty_pa, kEmptyUnknown_pa}) {
     for (const double pressure_pa : {0.0, empty_pa, std::nextafter(empty_pa, 1e9)}) {
       in_each_chamber([&](Chamber chamber) {
@@ -159,7 +159,7 @@ void an_empty_chamber_is_not_stuck(void**) {
 }
 
 /// An axis whose pressures did not come is neither judged nor forgotten.
-void what_is_not_known_is_not_judged(void**) {
+TEST(what_is_not_known_is_not_judged) {
   in_each_chamber([](Chamber chamber) {
     chamber.pressure_pa = kRail_pa;
     assert_false(chamber.wrong(0.3));
@@ -172,16 +172,4 @@ void what_is_not_known_is_not_judged(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(pressures_that_live_are_believed),
-      cmocka_unit_test(a_sensor_at_its_rail_is_wrong),
-      cmocka_unit_test(a_peak_ends_with_itself),
-      cmocka_unit_test(a_number_that_stands_while_the_cylinder_moves_is_stuck),
-      cmocka_unit_test(to_and_fro_adds_up_and_trembling_does_not),
-      cmocka_unit_test(a_cylinder_at_rest_has_one_pressure),
-      cmocka_unit_test(an_empty_chamber_is_not_stuck),
-      cmocka_unit_test(what_is_not_known_is_not_judged),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

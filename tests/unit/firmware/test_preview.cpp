@@ -35,7 +35,7 @@ AheadLimit standing_at(const GradeProfile& design, double x_m, double speed_mps,
   return standing(design, x_m).limit(x_m, speed_mps, kAllowed_m, lead_s);
 }
 
-void on_the_level_nothing_holds_it(void**) {
+TEST(on_the_level_nothing_holds_it) {
   const AheadLimit ahead = standing_at(GradeProfile(test::level(0.0)), 0.0, 1.0, 0.2);
   assert_true(ahead.speed_mps > 5.0);
   assert_true(ahead.lowest_mps > 5.0);
@@ -44,7 +44,7 @@ void on_the_level_nothing_holds_it(void**) {
 }
 
 /// The body tips over the bend: where half the flow is there, half the speed is.
-void it_is_the_flow_that_holds_it(void**) {
+TEST(it_is_the_flow_that_holds_it) {
   const GradeProfile design(test::ledge(-0.3, 0.3));
   const double with_all_mps = standing(design, 9.2).limit(9.2, 3.0, 1e-5, 0.0).lowest_mps;
   const double with_half_mps = standing(design, 9.2, 0.5).limit(9.2, 3.0, 1e-5, 0.0).lowest_mps;
@@ -53,7 +53,7 @@ void it_is_the_flow_that_holds_it(void**) {
 }
 
 /// What may be left standing is what it may be faster by.
-void what_is_allowed_makes_it_faster(void**) {
+TEST(what_is_allowed_makes_it_faster) {
   const GradeProfile design(test::ledge(-0.3, 0.3));
   const Preview preview = standing(design, 9.2);
   double last_mps = 0.0;
@@ -66,7 +66,7 @@ void what_is_allowed_makes_it_faster(void**) {
 
 /// At a speed that the flow does not suffice for the blade rises before the body tips, and at no
 /// speed further than is allowed, as there it will not be so fast.
-void the_blade_rises_before_the_body_tips(void**) {
+TEST(the_blade_rises_before_the_body_tips) {
   const GradeProfile design(test::ledge(-0.3, 0.3));
   const Preview preview = standing(design, 9.2);
   double highest_m = 0.0;
@@ -84,7 +84,7 @@ void the_blade_rises_before_the_body_tips(void**) {
 }
 
 /// v^2 <= v_i^2 + 2 a s: the nearer the bend, the slower, by the braking that is planned with.
-void it_brakes_in_time_for_a_bend(void**) {
+TEST(it_brakes_in_time_for_a_bend) {
   const GradeProfile design(test::ledge(-0.35, 0.3));
   const Preview preview = standing(design, 8.3);
   const double near_mps = preview.limit(8.4, 0.0, kAllowed_m, 0.0).speed_mps;
@@ -96,7 +96,7 @@ void it_brakes_in_time_for_a_bend(void**) {
 }
 
 /// What it takes to answer counts as way that is already driven.
-void the_lead_is_left_off(void**) {
+TEST(the_lead_is_left_off) {
   const GradeProfile design(test::ledge(-0.35, 0.3));
   const Preview preview = standing(design, 8.9);
   const double with_mps = preview.limit(8.9, 0.5, kAllowed_m, 0.2).speed_mps;
@@ -105,14 +105,14 @@ void the_lead_is_left_off(void**) {
 }
 
 /// A ledge ahead: the body will tip over it, which the paper's limit sees only when it happens.
-void it_knows_that_the_body_will_tip(void**) {
+TEST(it_knows_that_the_body_will_tip) {
   const AheadLimit ahead = standing_at(GradeProfile(profile().grade), 3.3, 1.2, 0.0);
   assert_true(ahead.lowest_mps < 0.5);
   assert_true(ahead.lowest_mps >= profile().travel.speed_min_mps);
 }
 
 /// Where the blade does not come down to the design it leaves ground standing, at any speed.
-void what_the_blade_does_not_reach_is_a_cost(void**) {
+TEST(what_the_blade_does_not_reach_is_a_cost) {
   const double reached_m = standing(GradeProfile(test::bend(-0.1, 0.3)), 8.9).least_cost_m(9.3);
   const Preview beyond = standing(GradeProfile(test::bend(-0.5, 0.3)), 8.9);
   assert_true(reached_m < 0.005);
@@ -122,7 +122,7 @@ void what_the_blade_does_not_reach_is_a_cost(void**) {
 }
 
 /// A full flow lowers the blade slower and slower towards the end of its stroke.
-void towards_the_end_of_the_stroke_it_is_slower(void**) {
+TEST(towards_the_end_of_the_stroke_it_is_slower) {
   const auto lowest_mps = [](double slope) {
     return standing(GradeProfile(test::bend(slope, 0.3)), 8.9, 10.0)
         .limit(8.9, 3.0, 1e-3, 0.0)
@@ -133,7 +133,7 @@ void towards_the_end_of_the_stroke_it_is_slower(void**) {
 }
 
 /// Until a station is known it counts as the slowest.
-void what_is_not_known_yet_is_slow(void**) {
+TEST(what_is_not_known_yet_is_slow) {
   const GradeProfile design(test::level(0.0));
   Preview preview(profile(), blade());
   preview.look(GroundMap(), design, 0.0, {0.0, 0.0}, flow_m3ps());
@@ -142,7 +142,7 @@ void what_is_not_known_yet_is_slow(void**) {
 }
 
 /// The fastest probe needs 2.5 m of 0.032 m a step, eight steps a cycle.
-void it_is_known_after_some_cycles(void**) {
+TEST(it_is_known_after_some_cycles) {
   const GradeProfile design(test::level(0.0));
   const GroundMap untouched;
   Preview preview(profile(), blade());
@@ -156,7 +156,7 @@ void it_is_known_after_some_cycles(void**) {
 }
 
 /// Forwards, backwards, and far away.
-void it_follows_wherever_the_machine_goes(void**) {
+TEST(it_follows_wherever_the_machine_goes) {
   const GradeProfile design(test::ledge(-0.35, 0.3));
   const GroundMap untouched;
   Preview preview(profile(), blade());
@@ -170,7 +170,7 @@ void it_follows_wherever_the_machine_goes(void**) {
 }
 
 /// No place is too far to be looked at, and none need be a number.
-void far_away_it_stays_defined(void**) {
+TEST(far_away_it_stays_defined) {
   const GradeProfile design(test::level(0.0));
   Preview preview(profile(), blade());
   for (const double x_m : {1e9, -1e300, std::numeric_limits<double>::quiet_NaN()}) {
@@ -182,21 +182,4 @@ void far_away_it_stays_defined(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(on_the_level_nothing_holds_it),
-      cmocka_unit_test(it_is_the_flow_that_holds_it),
-      cmocka_unit_test(what_is_allowed_makes_it_faster),
-      cmocka_unit_test(the_blade_rises_before_the_body_tips),
-      cmocka_unit_test(it_brakes_in_time_for_a_bend),
-      cmocka_unit_test(the_lead_is_left_off),
-      cmocka_unit_test(it_knows_that_the_body_will_tip),
-      cmocka_unit_test(what_the_blade_does_not_reach_is_a_cost),
-      cmocka_unit_test(towards_the_end_of_the_stroke_it_is_slower),
-      cmocka_unit_test(what_is_not_known_yet_is_slow),
-      cmocka_unit_test(it_is_known_after_some_cycles),
-      cmocka_unit_test(it_follows_wherever_the_machine_goes),
-      cmocka_unit_test(far_away_it_stays_defined),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -55,7 +55,7 @@ double spare_n(const McvInput& input, const McvSolution& solution, unsigned axis
 
 /// With the needed flow lambda is 1, and on each line the axis that lacks most has just its
 /// reserve.
-void the_needed_flow_is_enough_and_no_more(void**) {
+TEST(the_needed_flow_is_enough_and_no_more) {
   McvMachine unrelieved = valve();
   for (McvPump& pump : unrelieved.pump) {
     pump.has_relief = false;
@@ -78,7 +78,7 @@ void the_needed_flow_is_enough_and_no_more(void**) {
 }
 
 /// Where nothing moves, nothing is needed but what the bypass takes without pressure.
-void at_rest_nothing_is_needed(void**) {
+TEST(at_rest_nothing_is_needed) {
   McvInput input;
   input.cap_pressure_pa.fill(8e6);
   for (const double flow_m3ps : needed_flow_m3ps(valve(), input, {1.0, kReserve_n, 0.6, 33e6})) {
@@ -87,7 +87,7 @@ void at_rest_nothing_is_needed(void**) {
 }
 
 /// What a line is asked for ends where its relief valve opens.
-void the_pressure_has_an_end(void**) {
+TEST(the_pressure_has_an_end) {
   McvInput input;
   input.velocity_mps[kBoom] = 0.1;
   input.cap_pressure_pa[kBoom] = 35e6;
@@ -127,7 +127,7 @@ double profile_most() { return shipped().demand_swash.most_ratio; }
 
 /// More with the load, more with a slower engine, within the range, no more than the task's where a
 /// load holds a drive, and the task's swash at rest or without a range.
-void the_swash_goes_by_what_is_needed(void**) {
+TEST(the_swash_goes_by_what_is_needed) {
   const double light = Digging().settled(0);
   Digging heavy;
   heavy.input.cap_pressure_pa[kArm] = 8e6;
@@ -153,7 +153,7 @@ void the_swash_goes_by_what_is_needed(void**) {
 }
 
 /// Up fast, down slowly.
-void it_changes_no_faster_than_it_should(void**) {
+TEST(it_changes_no_faster_than_it_should) {
   Digging digging;
   digging.input.cap_pressure_pa.fill(34e6);
   const double start = digging.demand.swash_ratio[0];
@@ -166,7 +166,7 @@ void it_changes_no_faster_than_it_should(void**) {
 }
 
 /// At full load both pumps together take what the engine can give, no more.
-void the_engine_is_not_asked_for_more_than_it_has(void**) {
+TEST(the_engine_is_not_asked_for_more_than_it_has) {
   Digging rock;
   rock.input.cap_pressure_pa.fill(34e6);
   rock.line_pa.fill(30e6);
@@ -182,14 +182,4 @@ void the_engine_is_not_asked_for_more_than_it_has(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_needed_flow_is_enough_and_no_more),
-      cmocka_unit_test(at_rest_nothing_is_needed),
-      cmocka_unit_test(the_pressure_has_an_end),
-      cmocka_unit_test(the_swash_goes_by_what_is_needed),
-      cmocka_unit_test(it_changes_no_faster_than_it_should),
-      cmocka_unit_test(the_engine_is_not_asked_for_more_than_it_has),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -31,7 +31,7 @@ double ratio_at(const FlowBalance& line, double lambda) {
 }
 
 /// What the balance gives over lambda, 1 / lambda over r gives back.
-void lambda_to_r_and_back(void**) {
+TEST(lambda_to_r_and_back) {
   int compared = 0;
   for_random_circuits([&](const McvCircuit& circuit) {
     for (unsigned j = 0; j < circuit.pump_count; ++j) {
@@ -53,7 +53,7 @@ void lambda_to_r_and_back(void**) {
 
 /// Fact 1 and 2 of pressure_ratio.hpp: y rises with r, and between two openings it bends upwards;
 /// its slope is that of the difference quotient.
-void inverse_lambda_rises_and_is_convex(void**) {
+TEST(inverse_lambda_rises_and_is_convex) {
   int compared = 0;
   for_random_circuits([&](const McvCircuit& circuit) {
     for (unsigned j = 0; j < circuit.pump_count; ++j) {
@@ -143,7 +143,7 @@ void check_first_change(const CircuitAxis& axis, const FlowBalance& line, bool t
   }
 }
 
-void first_change_is_the_first(void**) {
+TEST(first_change_is_the_first) {
   Counted counted;
   for_random_circuits([&](const McvCircuit& circuit) {
     for (unsigned i = 0; i < circuit.axis_count; ++i) {
@@ -161,11 +161,4 @@ void first_change_is_the_first(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(lambda_to_r_and_back),
-      cmocka_unit_test(inverse_lambda_rises_and_is_convex),
-      cmocka_unit_test(first_change_is_the_first),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -33,7 +33,7 @@ ExcavatorProfile trimmed() {
 
 /// On a plan the plan says what is owed: less what is under way, less the stroke, bounded, and
 /// nothing of what was owed before.
-void on_a_plan_it_owes_what_the_plan_says(void**) {
+TEST(on_a_plan_it_owes_what_the_plan_says) {
   const ExcavatorProfile profile = trimmed();
   ExcavatorServo servo = servo_at_rest({0.5, 0.5, 0.5, 0.0});
   set(servo, &ServoState::integral_m, {0.02, -0.02, 0.01, 0.01});
@@ -58,7 +58,7 @@ void on_a_plan_it_owes_what_the_plan_says(void**) {
 
 /// A drive that goes on owing gets more and more, up to a bound; a new plan and a release forget
 /// it.
-void a_lasting_lag_is_learnt(void**) {
+TEST(a_lasting_lag_is_learnt) {
   const ExcavatorProfile profile = trimmed();
   const DriveVector strokes_m(0.5, 0.5, 0.5, 0.0);
   const DriveVector planned_m = strokes_m + DriveVector(0.002, -0.002, 0.0, 0.002);
@@ -101,7 +101,7 @@ void a_lasting_lag_is_learnt(void**) {
 }
 
 /// The 12 t machine's swing: closed where it owes and does not hold, corrected where it does.
-void a_swing_that_holds_is_corrected(void**) {
+TEST(a_swing_that_holds_is_corrected) {
   ExcavatorProfile profile = test::excavator_12t().profile;
   profile.control.swing_servo_gain_ps = 1.5;
   ExcavatorServo servo = servo_at_rest({0.4, 0.5, 0.3, 0.0});
@@ -114,7 +114,7 @@ void a_swing_that_holds_is_corrected(void**) {
 }
 
 /// A step of load: two thirds after the time constant, all in the end; at once when it starts.
-void the_load_is_low_passed(void**) {
+TEST(the_load_is_low_passed) {
   const auto pressures = [](double cap_pa, double rod_pa) {
     ValidDrive seen;
     seen.cap_pressure_pa = cap_pa;
@@ -144,12 +144,4 @@ void the_load_is_low_passed(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(on_a_plan_it_owes_what_the_plan_says),
-      cmocka_unit_test(a_lasting_lag_is_learnt),
-      cmocka_unit_test(a_swing_that_holds_is_corrected),
-      cmocka_unit_test(the_load_is_low_passed),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

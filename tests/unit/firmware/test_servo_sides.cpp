@@ -64,7 +64,7 @@ struct Bench {
 SpoolAnswers turned(const SpoolAnswers& answer) { return {answer.retract, answer.extend}; }
 
 /// To and fro, fast and slow: it is behind by nothing, and stops where it was expected to.
-void a_drive_as_expected_is_not_behind(void**) {
+TEST(a_drive_as_expected_is_not_behind) {
   for (const SpoolAnswers& answer : {test::two_sides(), turned(test::two_sides())}) {
     Bench bench(answer);
     for (int n = 0; n < 400; ++n) {
@@ -82,7 +82,7 @@ void a_drive_as_expected_is_not_behind(void**) {
 }
 
 /// By the other side's times it would be behind, or ahead.
-void times_changed_over_are_found(void**) {
+TEST(times_changed_over_are_found) {
   Bench bench(test::two_sides());
   bench.row.answer = turned(test::two_sides());
   for (int n = 0; n < 100; ++n) {
@@ -93,7 +93,7 @@ void times_changed_over_are_found(void**) {
 }
 
 /// Sides that differ in one time alone are two sides.
-void one_time_that_differs_counts(void**) {
+TEST(one_time_that_differs_counts) {
   for (double SpoolAnswer::*time : {&SpoolAnswer::dead_time_s, &SpoolAnswer::lag_s}) {
     SpoolAnswers answer = test::two_sides();
     answer.extend = answer.retract;
@@ -110,11 +110,4 @@ void one_time_that_differs_counts(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_drive_as_expected_is_not_behind),
-      cmocka_unit_test(times_changed_over_are_found),
-      cmocka_unit_test(one_time_that_differs_counts),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

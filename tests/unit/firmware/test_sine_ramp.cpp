@@ -26,7 +26,7 @@ double share_of_7(const SineRamp& ramp, double t) {
   return s2 + a / w * (t - t2 + std::sin(w * (t - t2)) / w);
 }
 
-void share_is_the_paper_s(void**) {
+TEST(share_is_the_paper_s) {
   for (const SineRamp ramp : {SineRamp{18.4, 1.5}, SineRamp{3.0, 1.5}}) {
     for (double t = 0.0; t <= ramp.duration_s; t += 0.01) {
       assert_near(ramp.at(t).share, share_of_7(ramp, t), 1e-12);
@@ -34,7 +34,7 @@ void share_is_the_paper_s(void**) {
   }
 }
 
-void rates_are_its_derivatives(void**) {
+TEST(rates_are_its_derivatives) {
   constexpr double kStep_s = 1e-5;
   const SineRamp ramp{10.0, 2.0};
   double fastest = 0.0;
@@ -52,7 +52,7 @@ void rates_are_its_derivatives(void**) {
   assert_near(hardest, ramp.peak_rate_change_ps2(), 1e-4);
 }
 
-void at_rest_at_both_ends_and_beyond(void**) {
+TEST(at_rest_at_both_ends_and_beyond) {
   const SineRamp ramp{10.0, 2.0};
   for (const double t : {-1.0, 0.0}) {
     assert_near(ramp.at(t).share, 0.0, 0.0);
@@ -66,7 +66,7 @@ void at_rest_at_both_ends_and_beyond(void**) {
 }
 
 /// One is the other's inverse.
-void duration_and_speed(void**) {
+TEST(duration_and_speed) {
   const SineRamp timed = ramp_for_duration(3.73, 18.4, 0.25);
   assert_near(timed.duration_s, 18.4, 0.0);
   assert_near(3.73 * timed.peak_rate_change_ps2(), 0.25, 1e-12);
@@ -76,7 +76,7 @@ void duration_and_speed(void**) {
 }
 
 /// Half of the time faster, half slower, at the whole acceleration; the speed is not reached.
-void a_short_trip_never_is_uniform(void**) {
+TEST(a_short_trip_never_is_uniform) {
   const SineRamp trip = ramp_for_speed(0.1, 1.0, 0.25);
   assert_near(trip.ramp_s, 0.5 * trip.duration_s, 0.0);
   assert_near(0.1 * trip.peak_rate_change_ps2(), 0.25, 1e-12);
@@ -88,13 +88,13 @@ void a_short_trip_never_is_uniform(void**) {
   assert_true(ramp_for_speed(0.99 * longest_m, 1.0, 0.25).peak_rate_ps() * 0.99 * longest_m < 1.0);
 }
 
-void too_little_time_takes_the_shortest_there_is(void**) {
+TEST(too_little_time_takes_the_shortest_there_is) {
   const SineRamp ramp = ramp_for_duration(1.0, 0.1, 0.25);
   assert_near(ramp.duration_s, std::sqrt(2.0 * kPi / 0.25), 1e-12);
   assert_near(ramp.peak_rate_change_ps2(), 0.25, 1e-12);
 }
 
-void slower_in_proportion(void**) {
+TEST(slower_in_proportion) {
   const SineRamp ramp{10.0, 2.0};
   const SineRamp slow = ramp.slowed(1.5);
   assert_near(slow.peak_rate_ps(), ramp.peak_rate_ps() / 1.5, 1e-15);
@@ -103,7 +103,7 @@ void slower_in_proportion(void**) {
 }
 
 /// By the share alone: never less than by the time, and the peak where that is.
-void the_rate_at_a_share_is_bounded(void**) {
+TEST(the_rate_at_a_share_is_bounded) {
   for (const SineRamp& ramp : {SineRamp{4.0, 1.0}, SineRamp{4.0, 2.0}}) {
     for (int i = 0; i <= 400; ++i) {
       const Progress at = ramp.at(0.01 * i);
@@ -117,16 +117,4 @@ void the_rate_at_a_share_is_bounded(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_rate_at_a_share_is_bounded),
-      cmocka_unit_test(share_is_the_paper_s),
-      cmocka_unit_test(rates_are_its_derivatives),
-      cmocka_unit_test(at_rest_at_both_ends_and_beyond),
-      cmocka_unit_test(duration_and_speed),
-      cmocka_unit_test(a_short_trip_never_is_uniform),
-      cmocka_unit_test(too_little_time_takes_the_shortest_there_is),
-      cmocka_unit_test(slower_in_proportion),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -10,7 +10,7 @@ namespace {
 using namespace graben;
 
 /// In the dead band, along the table, and a little beyond its end.
-void opening_and_travel_turn_into_each_other(void**) {
+TEST(opening_and_travel_turn_into_each_other) {
   const SpoolAnswers answer = test::two_sides();
   for (const SpoolAnswer* side : {&answer.extend, &answer.retract}) {
     double last = -1.0;
@@ -29,7 +29,7 @@ void opening_and_travel_turn_into_each_other(void**) {
   assert_near(duty_at(answer.extend, 1.03), 1.0, 0.0);
 }
 
-void straight_is_straight_to_both_sides(void**) {
+TEST(straight_is_straight_to_both_sides) {
   const SpoolAnswers answer = straight_answers(0.25, 0.1, 0.05);
   assert_true(answer.same_times());
   for (const SpoolAnswer* side : {&answer.extend, &answer.retract}) {
@@ -42,7 +42,7 @@ void straight_is_straight_to_both_sides(void**) {
 }
 
 /// The steeper of two parts where both are within the range.
-void the_steepest_part_within_the_range_counts(void**) {
+TEST(the_steepest_part_within_the_range_counts) {
   const SpoolAnswer side = test::two_sides().extend;
   assert_near(least_travel_per_opening(side, 0.41, 0.49), 0.4, 1e-12);
   assert_near(least_travel_per_opening(side, 0.51, 0.6), 2.0 / 3.0, 1e-12);
@@ -53,11 +53,4 @@ void the_steepest_part_within_the_range_counts(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(opening_and_travel_turn_into_each_other),
-      cmocka_unit_test(straight_is_straight_to_both_sides),
-      cmocka_unit_test(the_steepest_part_within_the_range_counts),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -37,20 +37,20 @@ double reversals_ps(double correction_mps, double wanted_mps = 0.0) {
   return static_cast<double>(reversals) / kSeconds;
 }
 
-void corrections_that_alternate_reverse_seldom(void**) {
+TEST(corrections_that_alternate_reverse_seldom) {
   assert_true(reversals_ps(0.010) < 0.6);
   assert_true(reversals_ps(0.030) < 1.2);
   assert_true(reversals_ps(0.010) > 0.0);
 }
 
 /// What is worth it goes through, and so does what the path wants.
-void large_corrections_and_the_path_pass(void**) {
+TEST(large_corrections_and_the_path_pass) {
   assert_true(reversals_ps(0.041) > 9.0);
   assert_true(reversals_ps(0.010, 0.005) > 9.0);
 }
 
 /// One reversal alone is not held up, and one that waits stands until its sign is back.
-void only_the_second_one_waits(void**) {
+TEST(only_the_second_one_waits) {
   ParkingState state;
   assert_false(park(0.0, 0.01, kPeriod_s, state));
   assert_int_equal(state.side, 1);
@@ -62,7 +62,7 @@ void only_the_second_one_waits(void**) {
 }
 
 /// What has not reversed for long does at once.
-void calm_forgets(void**) {
+TEST(calm_forgets) {
   ParkingState state;
   for (int n = 0; n < 2000; ++n) {
     static_cast<void>(park(0.0, 0.01, kPeriod_s, state));
@@ -71,7 +71,7 @@ void calm_forgets(void**) {
   assert_int_equal(state.side, -1);
 }
 
-void it_waits_within_the_dead_band_that_was_learnt(void**) {
+TEST(it_waits_within_the_dead_band_that_was_learnt) {
   const DriveRow row = drive_row();
   LearntValve valve;
   assert_near(parked_duty(row, valve, 1), 0.14, 1e-12);
@@ -83,7 +83,7 @@ void it_waits_within_the_dead_band_that_was_learnt(void**) {
   assert_near(parked_duty(row, valve, 0), 0.0, 0.0);
 }
 
-void each_side_has_its_own_edge(void**) {
+TEST(each_side_has_its_own_edge) {
   DriveRow row;
   row.answer = test::two_sides();
   LearntValve valve;
@@ -95,14 +95,4 @@ void each_side_has_its_own_edge(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(corrections_that_alternate_reverse_seldom),
-      cmocka_unit_test(large_corrections_and_the_path_pass),
-      cmocka_unit_test(only_the_second_one_waits),
-      cmocka_unit_test(calm_forgets),
-      cmocka_unit_test(it_waits_within_the_dead_band_that_was_learnt),
-      cmocka_unit_test(each_side_has_its_own_edge),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -65,7 +65,7 @@ struct Valve {
   }
 };
 
-void a_spool_at_its_duty_is_well(void**) {
+TEST(a_spool_at_its_duty_is_well) {
   for (const double duty : {0.0, 0.75, -0.75, 1.0, -1.0}) {
     Valve valve;
     valve.settle(duty);
@@ -73,7 +73,7 @@ void a_spool_at_its_duty_is_well(void**) {
 }
 
 /// The tolerance itself is within; the next number beyond it is not. Both sides, each axis.
-void the_tolerance_is_a_sharp_edge(void**) {
+TEST(the_tolerance_is_a_sharp_edge) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       Valve valve;
@@ -88,7 +88,7 @@ void the_tolerance_is_a_sharp_edge(void**) {
 }
 
 /// One frame that is wrong, twice seen because frames come every second cycle, is not enough.
-void it_must_be_wrong_in_a_row(void**) {
+TEST(it_must_be_wrong_in_a_row) {
   Valve valve;
   valve.settle(0.0);
   for (int round = 0; round < 5; ++round) {
@@ -110,7 +110,7 @@ void it_must_be_wrong_in_a_row(void**) {
 }
 
 /// Axes do not add up: each spool has its own row.
-void each_spool_is_counted_by_itself(void**) {
+TEST(each_spool_is_counted_by_itself) {
   Valve valve;
   valve.settle(0.0);
   for (int n = 0; n < 30; ++n) {
@@ -122,7 +122,7 @@ void each_spool_is_counted_by_itself(void**) {
 
 /// A spool that stays open against a close: wrong from the first cycle in which the slowest one
 /// that is sound has gone beyond the tolerance.
-void it_is_given_the_time_to_settle(void**) {
+TEST(it_is_given_the_time_to_settle) {
   for (const double open : {0.75, -0.75}) {
     Valve valve;
     valve.settle(open);
@@ -132,7 +132,7 @@ void it_is_given_the_time_to_settle(void**) {
 }
 
 /// The dead time is known within 30 %: 1.3 * 0.15 s + 0.03 s + 0.02 s are 24.5 cycles.
-void it_is_given_the_dead_time_too(void**) {
+TEST(it_is_given_the_dead_time_too) {
   Valve valve;
   valve.profile.control.dead_time_s = 0.15;
   valve.settle(0.75);
@@ -142,7 +142,7 @@ void it_is_given_the_dead_time_too(void**) {
 
 /// Of two sides the later one counts, and one that says that it is slow has the time it needs: two
 /// lags of 1.3 * 0.07 s, or of half of what its drive lags.
-void it_is_given_what_its_slower_side_needs(void**) {
+TEST(it_is_given_what_its_slower_side_needs) {
   for (const bool extends : {true, false}) {
     Valve valve;
     for (SaidAnswers& answer : valve.profile.valve.answer) {
@@ -168,7 +168,7 @@ void it_is_given_what_its_slower_side_needs(void**) {
 }
 
 /// More than the ring holds is cut to it; no time at all still leaves the age of a frame.
-void the_time_under_way_is_bounded(void**) {
+TEST(the_time_under_way_is_bounded) {
   Valve slow;
   slow.profile.control.dead_time_s = 5.0;
   slow.settle(0.75);
@@ -226,7 +226,7 @@ bool is_found(double lag_s, int late_cycles, double last_lag_s) {
 
 /// Whatever its lag up to the bound, constant or not, and however late up to it: no command makes a
 /// sound spool look stuck. One that is slower, or later, is.
-void no_sound_spool_is_stuck(void**) {
+TEST(no_sound_spool_is_stuck) {
   for (const double lag_s : {0.0, 0.005, 0.015, 0.025, 0.035}) {
     for (int late = 0; late < kStarts; ++late) {
       assert_false(is_found(lag_s, late, lag_s));
@@ -238,7 +238,7 @@ void no_sound_spool_is_stuck(void**) {
 }
 
 /// From wherever the ring stands: a command counts for as long, across its end as well.
-void the_ring_has_no_seam(void**) {
+TEST(the_ring_has_no_seam) {
   for (int start = 0; start < CommandHistory::kMostCycles; ++start) {
     Valve valve;
     for (int n = 0; n < start; ++n) {
@@ -253,7 +253,7 @@ void the_ring_has_no_seam(void**) {
 }
 
 /// On its way anywhere between the least and the most of late a spool is well.
-void between_old_and_new_is_well(void**) {
+TEST(between_old_and_new_is_well) {
   Valve valve;
   valve.settle(-0.5);
   valve.sent.duty_ratio = {0.75, 0.75, 0.75};
@@ -266,7 +266,7 @@ void between_old_and_new_is_well(void**) {
 }
 
 /// Enable given and not confirmed, and confirmed though it was not given.
-void the_echo_is_compared_both_ways(void**) {
+TEST(the_echo_is_compared_both_ways) {
   for (const bool told : {true, false}) {
     Valve valve;
     valve.sent.enable = told;
@@ -290,7 +290,7 @@ void the_echo_is_compared_both_ways(void**) {
 
 /// Spools that were not received are not judged, and counting begins afresh with those that are;
 /// what was sent meanwhile is remembered.
-void missing_feedback_is_not_judged(void**) {
+TEST(missing_feedback_is_not_judged) {
   Valve valve;
   valve.settle(0.75);
   valve.sent.enable = true;
@@ -317,7 +317,7 @@ void missing_feedback_is_not_judged(void**) {
   assert_int_equal(closing.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
 }
 
-void centred_is_within_the_tolerance(void**) {
+TEST(centred_is_within_the_tolerance) {
   const ExcavatorProfile profile = test::plain_machine();
   ExcavatorValid valid;
   assert_true(spools_centred(profile, valid));
@@ -334,7 +334,7 @@ void centred_is_within_the_tolerance(void**) {
 
 /// A fast spool goes where the lead points, beyond where it is to be; without the lead it is stuck
 /// there.
-void a_spool_may_follow_its_lead(void**) {
+TEST(a_spool_may_follow_its_lead) {
   for (const bool leads : {true, false}) {
     Valve valve;
     valve.settle(0.25);
@@ -346,7 +346,7 @@ void a_spool_may_follow_its_lead(void**) {
 
 /// One that starts 0.25 s late, with two lags of 0.15 s, is sound where duties are tried, and only
 /// there; one that stands is not.
-void the_slowest_spool_may_be_tried(void**) {
+TEST(the_slowest_spool_may_be_tried) {
   for (const bool tried : {true, false}) {
     Valve slow;
     slow.settle(0.0);
@@ -378,24 +378,4 @@ void the_slowest_spool_may_be_tried(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_spool_at_its_duty_is_well),
-      cmocka_unit_test(the_tolerance_is_a_sharp_edge),
-      cmocka_unit_test(it_must_be_wrong_in_a_row),
-      cmocka_unit_test(each_spool_is_counted_by_itself),
-      cmocka_unit_test(it_is_given_the_time_to_settle),
-      cmocka_unit_test(it_is_given_the_dead_time_too),
-      cmocka_unit_test(it_is_given_what_its_slower_side_needs),
-      cmocka_unit_test(the_time_under_way_is_bounded),
-      cmocka_unit_test(no_sound_spool_is_stuck),
-      cmocka_unit_test(a_spool_may_follow_its_lead),
-      cmocka_unit_test(the_ring_has_no_seam),
-      cmocka_unit_test(between_old_and_new_is_well),
-      cmocka_unit_test(the_echo_is_compared_both_ways),
-      cmocka_unit_test(missing_feedback_is_not_judged),
-      cmocka_unit_test(centred_is_within_the_tolerance),
-      cmocka_unit_test(the_slowest_spool_may_be_tried),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -35,7 +35,7 @@ struct Machine {
   }
 };
 
-void it_is_said_and_then_stopped(void**) {
+TEST(it_is_said_and_then_stopped) {
   Machine machine;
   machine.run(0.0, 128);
   assert_int_equal(machine.told(), Fault::kNone);
@@ -47,7 +47,7 @@ void it_is_said_and_then_stopped(void**) {
   assert_int_equal(machine.told(), Fault::kStalled);
 }
 
-void a_twentieth_is_getting_on(void**) {
+TEST(a_twentieth_is_getting_on) {
   Machine machine;
   machine.run(kStallShare, 1000);
   assert_int_equal(machine.told(), Fault::kNone);
@@ -58,7 +58,7 @@ void a_twentieth_is_getting_on(void**) {
 }
 
 /// 85 % of the time without getting on is a stall too; half of it is none.
-void most_of_the_time_counts(void**) {
+TEST(most_of_the_time_counts) {
   Machine mostly;
   for (int n = 0; n < 40 * 64; ++n) {
     mostly.run(n % 20 < 17 ? 0.0 : 1.0, 1);
@@ -71,7 +71,7 @@ void most_of_the_time_counts(void**) {
   }
 }
 
-void nothing_asked_is_no_stall(void**) {
+TEST(nothing_asked_is_no_stall) {
   Machine machine;
   machine.run(0.0, 200);
   machine.asked = false;
@@ -83,7 +83,7 @@ void nothing_asked_is_no_stall(void**) {
   assert_int_equal(machine.told(), Fault::kNone);  // Never below 0.
 }
 
-void not_active_it_begins_newly(void**) {
+TEST(not_active_it_begins_newly) {
   Machine machine;
   machine.run(0.0, 2000);
   machine.active = false;
@@ -95,7 +95,7 @@ void not_active_it_begins_newly(void**) {
 }
 
 /// However long it has stalled, a second and what was allowed is all that has to run off.
-void it_is_bounded(void**) {
+TEST(it_is_bounded) {
   Machine machine;
   machine.run(0.0, 100000);
   assert_near(machine.state.stalled_s, kMost_s + 1.0, 0.0);
@@ -105,11 +105,4 @@ void it_is_bounded(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_is_said_and_then_stopped), cmocka_unit_test(a_twentieth_is_getting_on),
-      cmocka_unit_test(most_of_the_time_counts),     cmocka_unit_test(nothing_asked_is_no_stall),
-      cmocka_unit_test(not_active_it_begins_newly),  cmocka_unit_test(it_is_bounded),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -62,7 +62,7 @@ Passage drive_steady(unsigned seed, McvPolicy policy, const LambdaRise& rise) {
 }
 
 /// One fall on the way up, one climb on the way down, nothing back and forth.
-void a_split_is_crossed_once_each_way(void**) {
+TEST(a_split_is_crossed_once_each_way) {
   for (unsigned seed = 0; seed < kDrives; ++seed) {
     const Passage passage = drive_steady(seed, McvPolicy::kGlobal, kRise);
     assert_int_equal(passage.falls, 1);
@@ -74,7 +74,7 @@ void a_split_is_crossed_once_each_way(void**) {
 
 /// The rate alone bounds how often lambda can fall, not that it falls again: what the reserve is
 /// for.
-void without_the_reserve_noise_makes_it_fall_again(void**) {
+TEST(without_the_reserve_noise_makes_it_fall_again) {
   int falls = 0;
   for (unsigned seed = 0; seed < kDrives; ++seed) {
     falls += drive_steady(seed, McvPolicy::kGlobal, {kRise.rate_ps, 0.0, 0.0}).falls;
@@ -85,7 +85,7 @@ void without_the_reserve_noise_makes_it_fall_again(void**) {
 
 /// The same drive makes every policy chatter that knows nothing of the last cycle: the test above
 /// could fail.
-void alone_every_policy_chatters(void**) {
+TEST(alone_every_policy_chatters) {
   for (const McvPolicy policy :
        {McvPolicy::kAlgorithm1, McvPolicy::kConnected, McvPolicy::kGlobal}) {
     const Passage passage =
@@ -99,7 +99,7 @@ void alone_every_policy_chatters(void**) {
 }
 
 /// Light loads: lambda goes up by the rate, cycle by cycle, and nothing but the rate is the reason.
-void from_rest_it_rises_at_its_rate(void**) {
+TEST(from_rest_it_rises_at_its_rate) {
   const McvMachine machine = test::kim();
   const McvInput input = test::split_input(0.6e6);
   double last = 0.0;
@@ -114,7 +114,7 @@ void from_rest_it_rises_at_its_rate(void**) {
 
 /// It climbs to where the reserve is used up, then stays although more is feasible; the reason is
 /// what lacks the reserve. When the load grows it falls to what is feasible, reserve or not.
-void it_rises_with_the_reserve_and_falls_without(void**) {
+TEST(it_rises_with_the_reserve_and_falls_without) {
   const McvMachine machine = test::kim();
   const McvInput input = test::split_input(4e6);
   const double free = solve_mcv(machine, input, McvPolicy::kGlobal).point.lambda;
@@ -137,7 +137,7 @@ void it_rises_with_the_reserve_and_falls_without(void**) {
 
 /// With a share for holding it falls to where that share is left, and no further; a little above it
 /// stays.
-void it_holds_with_its_share_of_the_reserve(void**) {
+TEST(it_holds_with_its_share_of_the_reserve) {
   const McvMachine machine = test::kim();
   const McvInput input = test::split_input(4e6);
   const LambdaRise rise{4.0, 16000.0, 0.25};
@@ -154,7 +154,7 @@ void it_holds_with_its_share_of_the_reserve(void**) {
 
 /// The split again, half of the reserve being for holding: what is left still keeps the peace; with
 /// nothing left it is gone.
-void a_share_for_holding_leaves_it_calm(void**) {
+TEST(a_share_for_holding_leaves_it_calm) {
   int falls_without = 0;
   for (unsigned seed = 0; seed < kDrives; ++seed) {
     const Passage passage = drive_steady(seed, McvPolicy::kGlobal, {4.0, 16000.0, 0.5});
@@ -169,7 +169,7 @@ void a_share_for_holding_leaves_it_calm(void**) {
 
 /// A load within the reserve of stall is moved, and a little more load makes it a little slower:
 /// the reserve takes at most half of what is left over.
-void near_stall_it_slows_down_smoothly(void**) {
+TEST(near_stall_it_slows_down_smoothly) {
   const McvMachine machine = test::kim();
   double before = 1.0;
   for (double cap_pa = 12.0e6; cap_pa < 12.3e6; cap_pa += 0.02e6) {
@@ -188,7 +188,7 @@ void near_stall_it_slows_down_smoothly(void**) {
 }
 
 /// Another axis close to stall, on the other pump, must not cost the split its reserve.
-void an_axis_near_stall_does_not_free_the_others(void**) {
+TEST(an_axis_near_stall_does_not_free_the_others) {
   const McvMachine machine = test::kim();
   McvInput still = test::split_input(2.0e6);
   still.velocity_mps[kArm] = 0.002;
@@ -217,7 +217,7 @@ void an_axis_near_stall_does_not_free_the_others(void**) {
   assert_true(last > 0.05);
 }
 
-void bad_rises_are_refused(void**) {
+TEST(bad_rises_are_refused) {
   const double nan = std::nan("");
   const auto refused = [](const LambdaRise& rise, double period_s) {
     const McvSolution solution =
@@ -233,18 +233,4 @@ void bad_rises_are_refused(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_split_is_crossed_once_each_way),
-      cmocka_unit_test(without_the_reserve_noise_makes_it_fall_again),
-      cmocka_unit_test(from_rest_it_rises_at_its_rate),
-      cmocka_unit_test(it_rises_with_the_reserve_and_falls_without),
-      cmocka_unit_test(it_holds_with_its_share_of_the_reserve),
-      cmocka_unit_test(a_share_for_holding_leaves_it_calm),
-      cmocka_unit_test(near_stall_it_slows_down_smoothly),
-      cmocka_unit_test(an_axis_near_stall_does_not_free_the_others),
-      cmocka_unit_test(bad_rises_are_refused),
-      cmocka_unit_test(alone_every_policy_chatters),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

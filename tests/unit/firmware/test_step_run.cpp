@@ -14,7 +14,7 @@ using namespace graben::test;
 
 /// Each round digs the offset deeper; what the digs do not meet stays; then it is done, and stands
 /// where the last round began.
-void each_round_digs_deeper(void**) {
+TEST(each_round_digs_deeper) {
   Exact run(in_rounds(3));
   for (int round = 0; round < 3; ++round) {
     assert_int_equal(run.state.round, round);
@@ -35,7 +35,7 @@ void each_round_digs_deeper(void**) {
 }
 
 /// As many rounds as bring the dig to the clearance, and no round below it.
-void rounds_end_at_the_design(void**) {
+TEST(rounds_end_at_the_design) {
   ProgramRequest request = in_rounds(0);
   request.rounds.to_design = true;
   // From -0.1 m to 0.05 m over -0.5: 0.35 m in steps of 0.1 are four after the first.
@@ -65,7 +65,7 @@ void rounds_end_at_the_design(void**) {
 }
 
 /// Every round is looked at before anything moves: with fences, and where the machine ends.
-void later_rounds_are_refused_with_their_number(void**) {
+TEST(later_rounds_are_refused_with_their_number) {
   ProgramRequest fenced = in_rounds(4);
   fenced.fences.count = 1;
   fenced.fences.fence[0] = {-Eigen::Vector3d::UnitZ(), 0.32, FenceGuard::kMachine};
@@ -89,7 +89,7 @@ ProgramRequest until(const StepUntil& until) {
 }
 
 /// It comes to rest at the plane, and the lift leads on from there as a line.
-void a_plane_ends_a_step_where_it_is(void**) {
+TEST(a_plane_ends_a_step_where_it_is) {
   Exact run(until({UntilKind::kPlane, 0.0, -Eigen::Vector3d::UnitX(), -6.0}));
   double x_m = 0.0;
   run.run_step([&](const TeethPose& teeth) { x_m = teeth.position_m.x(); });
@@ -110,7 +110,7 @@ void a_plane_ends_a_step_where_it_is(void**) {
 }
 
 /// A force has to last, and to be known.
-void a_force_ends_a_step_that_it_holds(void**) {
+TEST(a_force_ends_a_step_that_it_holds) {
   const double most_n = 20e3;
   const auto ends_after = [&](double force_n, bool known, int cycles) {
     Exact run(until({UntilKind::kForce, most_n}));
@@ -138,7 +138,7 @@ void a_force_ends_a_step_that_it_holds(void**) {
 
 /// What the edge has passed, by the ground that it has left; a round that the bucket's fill has cut
 /// short is done again at its depth until it is through.
-void a_full_bucket_ends_a_dig_and_its_round_is_done_again(void**) {
+TEST(a_full_bucket_ends_a_dig_and_its_round_is_done_again) {
   ProgramRequest request = in_rounds(2);
   const ExcavatorBody& body = profile().geometry.body;
   // The dig is 2.2 m long and 0.1 m deep: of 0.22 m3 a bucket that takes 0.13 is full on its way.
@@ -166,7 +166,7 @@ void a_full_bucket_ends_a_dig_and_its_round_is_done_again(void**) {
 }
 
 /// What a dig never gets through stays up after so many tries.
-void a_round_is_not_done_again_for_ever(void**) {
+TEST(a_round_is_not_done_again_for_ever) {
   ProgramRequest request = in_rounds(2);
   request.step[0].until = {UntilKind::kForce, 20e3};
   Exact run(request);
@@ -181,7 +181,7 @@ void a_round_is_not_done_again_for_ever(void**) {
 }
 
 /// What follows an early end is looked at from all along the line.
-void what_follows_an_early_end_is_refused_at_planning(void**) {
+TEST(what_follows_an_early_end_is_refused_at_planning) {
   ProgramRequest request = until({UntilKind::kForce, 20e3});
   // The lift from the line's end stays clear of this box; one from its beginning would pass it.
   request.step[1].to.position_m = {4.9, 0.0, 3.0};
@@ -206,7 +206,7 @@ void what_follows_an_early_end_is_refused_at_planning(void**) {
   assert_true(with.early_share >= 0.0 && with.early_share < 1.0);
 }
 
-void numbers_that_say_nothing_are_refused(void**) {
+TEST(numbers_that_say_nothing_are_refused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto bad = [](const ProgramRequest& request) {
     return plan(request).refusal == ProgramRefusal::kBadRequest;
@@ -230,17 +230,4 @@ void numbers_that_say_nothing_are_refused(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(each_round_digs_deeper),
-      cmocka_unit_test(rounds_end_at_the_design),
-      cmocka_unit_test(later_rounds_are_refused_with_their_number),
-      cmocka_unit_test(a_plane_ends_a_step_where_it_is),
-      cmocka_unit_test(a_force_ends_a_step_that_it_holds),
-      cmocka_unit_test(a_full_bucket_ends_a_dig_and_its_round_is_done_again),
-      cmocka_unit_test(a_round_is_not_done_again_for_ever),
-      cmocka_unit_test(what_follows_an_early_end_is_refused_at_planning),
-      cmocka_unit_test(numbers_that_say_nothing_are_refused),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -22,7 +22,7 @@ ProgramRequest with_wait() {
 
 /// It stands at the end of the step before until the task is asked for anew, and goes on from
 /// there; from elsewhere, or as another task, it begins anew.
-void a_wait_ends_by_the_operator_s_word(void**) {
+TEST(a_wait_ends_by_the_operator_s_word) {
   Exact run(with_wait());
   run.run_step();
   run.run_step();
@@ -63,7 +63,7 @@ void a_wait_ends_by_the_operator_s_word(void**) {
 }
 
 /// Not before it has arrived is a wait one: a task that stops before that begins anew.
-void on_its_way_to_a_wait_there_is_no_word(void**) {
+TEST(on_its_way_to_a_wait_there_is_no_word) {
   Exact run(with_wait());
   run.run_step();
   run.run_step();
@@ -73,7 +73,7 @@ void on_its_way_to_a_wait_there_is_no_word(void**) {
 }
 
 /// A wait stands on a pose that rounds move as well.
-void a_wait_in_the_ground_moves_with_it(void**) {
+TEST(a_wait_in_the_ground_moves_with_it) {
   ProgramRequest request = in_rounds(2);
   request.step[3] = request.step[2];
   request.step[2] = request.step[1];
@@ -91,11 +91,4 @@ void a_wait_in_the_ground_moves_with_it(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_wait_ends_by_the_operator_s_word),
-      cmocka_unit_test(on_its_way_to_a_wait_there_is_no_word),
-      cmocka_unit_test(a_wait_in_the_ground_moves_with_it),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

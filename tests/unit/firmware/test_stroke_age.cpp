@@ -51,7 +51,7 @@ struct Boom {
 constexpr TimeUs kLost = -1;
 constexpr TimeUs kAges_us[] = {0, 100, 5000, 9900};
 
-void a_frame_from_before_is_carried_on_to_now(void**) {
+TEST(a_frame_from_before_is_carried_on_to_now) {
   for (const double speed_mps : {0.3, -0.3}) {
     for (const TimeUs age_us : kAges_us) {
       Boom boom(speed_mps);
@@ -61,14 +61,14 @@ void a_frame_from_before_is_carried_on_to_now(void**) {
   }
 }
 
-void a_frame_of_this_instant_is_taken_as_it_is(void**) {
+TEST(a_frame_of_this_instant_is_taken_as_it_is) {
   Boom boom(0.3);
   const double last_m = boom.run(40, 0);
   assert_near(last_m, boom.newest.value, 0.0);
 }
 
 /// By the phase of two clocks a frame now makes its cycle and now misses it.
-void frames_that_just_make_it_and_just_do_not(void**) {
+TEST(frames_that_just_make_it_and_just_do_not) {
   Boom boom(0.3);
   boom.run(40, 5000);
   for (int n = 0; n < 20; ++n) {
@@ -78,7 +78,7 @@ void frames_that_just_make_it_and_just_do_not(void**) {
 }
 
 /// A stroke whose frames stay away is carried on no farther than to the next of them.
-void a_lost_frame_is_not_made_up(void**) {
+TEST(a_lost_frame_is_not_made_up) {
   Boom boom(0.3);
   boom.run(40, 0);
   const double newest_m = boom.newest.value;
@@ -88,7 +88,7 @@ void a_lost_frame_is_not_made_up(void**) {
 }
 
 /// Into what is sensed, as the frame itself.
-void never_beyond_the_sensor(void**) {
+TEST(never_beyond_the_sensor) {
   for (const int side : {1, -1}) {
     Boom boom(0.3 * side);
     const DriveWatch watch = excavator_bank(boom.profile).row[kBoom].watch;
@@ -101,7 +101,7 @@ void never_beyond_the_sensor(void**) {
 }
 
 /// At rest it may be moved by hand: nothing is carried on, and motion begins anew.
-void at_rest_nothing_is_carried_on(void**) {
+TEST(at_rest_nothing_is_carried_on) {
   Boom boom(0.3);
   boom.run(40, 9900);
   const double at_rest_m = boom.step(9900, false);
@@ -112,14 +112,4 @@ void at_rest_nothing_is_carried_on(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_frame_from_before_is_carried_on_to_now),
-      cmocka_unit_test(a_frame_of_this_instant_is_taken_as_it_is),
-      cmocka_unit_test(frames_that_just_make_it_and_just_do_not),
-      cmocka_unit_test(a_lost_frame_is_not_made_up),
-      cmocka_unit_test(never_beyond_the_sensor),
-      cmocka_unit_test(at_rest_nothing_is_carried_on),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

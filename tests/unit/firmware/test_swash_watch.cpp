@@ -32,7 +32,7 @@ struct Pumps {
 };
 
 /// Off by the tolerance for ever is well; by the next number it is not, either way, either pump.
-void the_tolerance_is_a_sharp_edge(void**) {
+TEST(the_tolerance_is_a_sharp_edge) {
   for (unsigned pump = 0; pump < kPumpCount; ++pump) {
     for (const double sign : {1.0, -1.0}) {
       Pumps pumps;
@@ -45,7 +45,7 @@ void the_tolerance_is_a_sharp_edge(void**) {
 }
 
 /// The servo has 0.5 s; a moment of agreement gives it as much again.
-void the_servo_is_given_its_time(void**) {
+TEST(the_servo_is_given_its_time) {
   Pumps pumps;
   pumps.swash[0] = 0.0;
   assert_false(pumps.disagree(0.25));
@@ -60,7 +60,7 @@ void the_servo_is_given_its_time(void**) {
 }
 
 /// The smaller of command and feedback, of that pump alone, and only once it disagrees.
-void the_smaller_one_counts(void**) {
+TEST(the_smaller_one_counts) {
   Pumps more;
   more.swash = {0.25, 1.0};
   assert_false(more.disagree(0.5));
@@ -74,7 +74,7 @@ void the_smaller_one_counts(void**) {
 }
 
 /// A pump that sets its own swash goes where the drives need it.
-void a_regulated_pump_is_not_asked(void**) {
+TEST(a_regulated_pump_is_not_asked) {
   Pumps own;
   own.profile.pump[1].regulator.kind = PumpKind::kLoadSensing;
   own.swash[1] = 0.1;
@@ -83,7 +83,7 @@ void a_regulated_pump_is_not_asked(void**) {
 }
 
 /// A pump that is not there answers nothing.
-void only_the_machine_s_pumps_are_asked(void**) {
+TEST(only_the_machine_s_pumps_are_asked) {
   Pumps one;
   one.profile.pump_count = 1;
   one.swash[1] = 0.0;
@@ -93,7 +93,7 @@ void only_the_machine_s_pumps_are_asked(void**) {
 }
 
 /// Without a command nothing is asked, and nothing is remembered.
-void without_a_command_nothing_is_asked(void**) {
+TEST(without_a_command_nothing_is_asked) {
   Pumps pumps;
   pumps.swash = {0.0, 0.0};
   assert_false(pumps.disagree(10.0, false));
@@ -105,7 +105,7 @@ void without_a_command_nothing_is_asked(void**) {
 
 /// Of a command that goes up and down by 0.4 within a second, a pump that lags 0.15 s behind is
 /// well, though it is off by more than the tolerance; one that stays where it was is not.
-void a_command_may_move(void**) {
+TEST(a_command_may_move) {
   for (const bool follows : {true, false}) {
     Pumps pumps;
     bool disagreed = false;
@@ -122,7 +122,7 @@ void a_command_may_move(void**) {
 }
 
 /// Of a pump whose swash nobody measures the flow is reckoned with the least that it may have.
-void the_slower_of_both_stands_in(void**) {
+TEST(the_slower_of_both_stands_in) {
   Pumps pumps;
   pumps.profile.bus.swash_feedback = false;
   pumps.wanted = {0.25, 1.0};
@@ -132,16 +132,4 @@ void the_slower_of_both_stands_in(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_tolerance_is_a_sharp_edge),
-      cmocka_unit_test(the_servo_is_given_its_time),
-      cmocka_unit_test(the_smaller_one_counts),
-      cmocka_unit_test(a_regulated_pump_is_not_asked),
-      cmocka_unit_test(only_the_machine_s_pumps_are_asked),
-      cmocka_unit_test(without_a_command_nothing_is_asked),
-      cmocka_unit_test(a_command_may_move),
-      cmocka_unit_test(the_slower_of_both_stands_in),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -32,7 +32,7 @@ DriveVector half_out(double swing_rad = 0.0) {
   return travel_m;
 }
 
-void the_motor_is_a_cylinder_with_equal_areas(void**) {
+TEST(the_motor_is_a_cylinder_with_equal_areas) {
   const McvMachine valve = mcv_machine(profile());
   assert_int_equal(valve.actuator_count, kDriveCount);
   assert_int_equal(valve.pump_count, 1);
@@ -58,7 +58,7 @@ McvInput four_drives(double swing_mps) {
 
 /// One pump for all: what is solved is what a plain circuit of four says, and what helps the swing
 /// to the left helps it to the right.
-void four_drives_on_one_pump(void**) {
+TEST(four_drives_on_one_pump) {
   const McvMachine valve = mcv_machine(profile());
   for (const double swing_mps : {0.02, 0.1, 0.2, 0.4}) {
     const McvInput left = four_drives(swing_mps);
@@ -105,7 +105,7 @@ test::Gated duties(double wanted_radps, double owed_rad = 0.0) {
                     1.0);
 }
 
-void a_swing_velocity_gives_a_duty_of_its_sign(void**) {
+TEST(a_swing_velocity_gives_a_duty_of_its_sign) {
   for (const double wanted_radps : {0.05, 0.5, 1.4}) {
     const test::Gated left = duties(wanted_radps);
     assert_true(left.duty_ratio[kSwing] > 0.2);
@@ -119,7 +119,7 @@ void a_swing_velocity_gives_a_duty_of_its_sign(void**) {
 }
 
 /// At its own gain: 1 1/s where the cylinders have 2.
-void the_swing_owes_at_its_own_gain(void**) {
+TEST(the_swing_owes_at_its_own_gain) {
   ExcavatorProfile machine = profile();
   machine.control.servo_gain_ps = 2.0;
   machine.control.swing_servo_gain_ps = 1.0;
@@ -134,7 +134,7 @@ void the_swing_owes_at_its_own_gain(void**) {
 }
 
 /// What is owed does not push it into an end of its range, and a prediction goes on beyond.
-void what_is_owed_stops_at_an_end_of_the_range(void**) {
+TEST(what_is_owed_stops_at_an_end_of_the_range) {
   for (const double sign : {1.0, -1.0}) {
     const double end_rad =
         sign > 0.0 ? profile().swing.left_end_rad : profile().swing.right_end_rad;
@@ -152,7 +152,7 @@ void what_is_owed_stops_at_an_end_of_the_range(void**) {
 
 /// Alike on both sides, in metres at the lever as in radians: per second what is left times the
 /// gain. The rest slows with it.
-void the_swing_slows_before_the_end_of_its_range(void**) {
+TEST(the_swing_slows_before_the_end_of_its_range) {
   const double gain_ps = profile().control.stroke_end_gain_ps;
   for (const double sign : {1.0, -1.0}) {
     const double near_rad = sign * (profile().swing.left_end_rad - 0.1);
@@ -173,7 +173,7 @@ void the_swing_slows_before_the_end_of_its_range(void**) {
 }
 
 /// Half the section's flow: 1.667e-3 over 1.2e-3 m^3/rad are less than its own 1.435 rad/s.
-void a_plan_asks_no_more_than_the_motor_is_fed(void**) {
+TEST(a_plan_asks_no_more_than_the_motor_is_fed) {
   ExcavatorProfile starved = profile();
   starved.valve.section_flow_m3ps *= 0.5;
   assert_near(drive_limits(starved).speed_out[kSwing], 1.6665e-3 / 1.2e-3, 1e-9);
@@ -188,7 +188,7 @@ struct Digging : test::Running {
   }
 };
 
-void digging_holds_the_swing(void**) {
+TEST(digging_holds_the_swing) {
   Digging digging;
   for (int n = 0; n < 20; ++n) {
     ExcavatorInputs inputs = digging.inputs();
@@ -202,7 +202,7 @@ void digging_holds_the_swing(void**) {
   }
 }
 
-void whatever_fails_of_the_swing_is_neutral(void**) {
+TEST(whatever_fails_of_the_swing_is_neutral) {
   struct Failure {
     void (*of)(SwingInputs&);
     Fault fault;
@@ -229,7 +229,7 @@ void whatever_fails_of_the_swing_is_neutral(void**) {
 }
 
 /// A platform that turns by itself, 0.2 rad/s, long after its spool has closed.
-void a_swing_that_turns_by_itself_is_neutral(void**) {
+TEST(a_swing_that_turns_by_itself_is_neutral) {
   Digging digging;
   const SwingProfile& swing = profile().swing;
   // When one at full speed would have come to rest, half a second for the oil, and a second.
@@ -250,7 +250,7 @@ void a_swing_that_turns_by_itself_is_neutral(void**) {
 }
 
 /// There is no program yet: asked for in motion it stops, before it nothing arms.
-void a_task_that_is_none_of_ours_is_refused(void**) {
+TEST(a_task_that_is_none_of_ours_is_refused) {
   for (const bool has_swing : {true, false}) {
     const auto running = [has_swing] {
       return has_swing ? test::Running(profile(), test::make_12t) : test::Running();
@@ -277,19 +277,4 @@ void a_task_that_is_none_of_ours_is_refused(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_motor_is_a_cylinder_with_equal_areas),
-      cmocka_unit_test(four_drives_on_one_pump),
-      cmocka_unit_test(a_swing_velocity_gives_a_duty_of_its_sign),
-      cmocka_unit_test(the_swing_owes_at_its_own_gain),
-      cmocka_unit_test(what_is_owed_stops_at_an_end_of_the_range),
-      cmocka_unit_test(the_swing_slows_before_the_end_of_its_range),
-      cmocka_unit_test(a_plan_asks_no_more_than_the_motor_is_fed),
-      cmocka_unit_test(digging_holds_the_swing),
-      cmocka_unit_test(whatever_fails_of_the_swing_is_neutral),
-      cmocka_unit_test(a_swing_that_turns_by_itself_is_neutral),
-      cmocka_unit_test(a_task_that_is_none_of_ours_is_refused),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -52,7 +52,7 @@ double theta_deg(int drive, double stroke_m) {
 
 /// Section 3.2.2 at the stroke ends. At 2.400 m (6) gives 71.570 deg; what is printed, 68.810,
 /// belongs to 2.387 m.
-void angle_ranges_of_the_paper(void**) {
+TEST(angle_ranges_of_the_paper) {
   assert_near(theta_deg(kBoom, 0.0), -45.179, 0.001);
   assert_near(theta_deg(kBoom, 0.950), 71.570, 0.001);
   assert_near(theta_deg(kBoom, 2.387 - 1.450), 68.810, 0.1);
@@ -63,7 +63,7 @@ void angle_ranges_of_the_paper(void**) {
 }
 
 /// (6) as printed, over the boom's stroke, from the figures of the paper and not from the pins.
-void boom_angle_is_the_paper_s_formula(void**) {
+TEST(boom_angle_is_the_paper_s_formula) {
   for (double stroke_m = 0.0; stroke_m <= 0.950; stroke_m += 0.05) {
     const double length_m = 1.450 + stroke_m;
     const double cosine =
@@ -81,7 +81,7 @@ Eigen::Isometry3d row(double theta_rad, double d_m, double a_m, double alpha_rad
 
 /// (1): the product of the rows; its last column is the position of (2), its x axis points from
 /// the bucket pin to the teeth.
-void teeth_are_where_the_rows_put_them(void**) {
+TEST(teeth_are_where_the_rows_put_them) {
   over_the_whole_range([](const SwingKinematics& machine, const DriveVector& drive) {
     const ExcavatorGeometry& links = machine.geometry();
     const DriveVector q = machine.joints_from_drive(drive).value;
@@ -105,7 +105,7 @@ bool faces_its_teeth(const SwingKinematics& machine, const DriveVector& drive) {
   return teeth.position_m.x() > kLeastSwingRadius_m;
 }
 
-void drives_to_teeth_and_back(void**) {
+TEST(drives_to_teeth_and_back) {
   int count = 0;
   over_the_whole_range([&](const SwingKinematics& machine, const DriveVector& drive) {
     if (!faces_its_teeth(machine, drive)) {
@@ -122,7 +122,7 @@ void drives_to_teeth_and_back(void**) {
 
 /// (4) as printed against joints that are known: theta_1 and theta_2 come out, theta_3 does not,
 /// not even with every k_3; with +xi - pi it does.
-void the_printed_theta_3_is_not_the_joint(void**) {
+TEST(the_printed_theta_3_is_not_the_joint) {
   const ExcavatorGeometry& links = machine_12t().geometry();
   const DriveVector q(0.3, -1.2, -0.2, 0.4);
   const TeethPose teeth = machine_12t().teeth_from_joints(q);
@@ -153,7 +153,7 @@ void assert_spot(const BlindSpot& spot, BlindKind kind, int drive) {
   assert_int_equal(spot.drive, drive);
 }
 
-void what_can_t_be_had_names_its_joint(void**) {
+TEST(what_can_t_be_had_names_its_joint) {
   assert_spot(spot(6.0, 3.0, 0.0, 2.0), BlindKind::kNone, kBoom);
   assert_spot(spot(9.0, 0.0, 0.0, 2.0), BlindKind::kOutOfReach, kArm);
   assert_spot(spot(0.01, 0.01, -2.0, 2.0), BlindKind::kSingular, kSwing);
@@ -175,7 +175,7 @@ void what_can_t_be_had_names_its_joint(void**) {
 }
 
 /// A machine whose strokes reach farther than any: what is left are the levers.
-void a_vanished_lever_names_its_joint(void**) {
+TEST(a_vanished_lever_names_its_joint) {
   ExcavatorGeometry geometry = machine_12t().geometry();
   // So that the arm's cylinder lets it stretch out.
   geometry.cylinder[kArm].eye_m = {-0.5, 0.4};
@@ -207,7 +207,7 @@ struct Curve {
   TeethPose curvature() const { return {{-0.8, 1.8, 1.0}, 0.6}; }
 };
 
-void derivatives_of_the_drives(void**) {
+TEST(derivatives_of_the_drives) {
   constexpr double kStep = 1e-4;
   const Curve curve;
   const auto motion = [&](double s) {
@@ -226,7 +226,7 @@ void derivatives_of_the_drives(void**) {
 }
 
 /// The swing's value follows the path across the back of the machine.
-void swing_goes_on_behind_the_machine(void**) {
+TEST(swing_goes_on_behind_the_machine) {
   const TeethPose behind{{-5.0, -0.1, 0.0}, 2.0};
   const auto swing_near = [&](double near_rad) {
     return machine_12t().motion_from_teeth(behind, {}, {}, near_rad).value[kSwing];
@@ -237,17 +237,4 @@ void swing_goes_on_behind_the_machine(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(angle_ranges_of_the_paper),
-      cmocka_unit_test(boom_angle_is_the_paper_s_formula),
-      cmocka_unit_test(teeth_are_where_the_rows_put_them),
-      cmocka_unit_test(drives_to_teeth_and_back),
-      cmocka_unit_test(the_printed_theta_3_is_not_the_joint),
-      cmocka_unit_test(what_can_t_be_had_names_its_joint),
-      cmocka_unit_test(a_vanished_lever_names_its_joint),
-      cmocka_unit_test(derivatives_of_the_drives),
-      cmocka_unit_test(swing_goes_on_behind_the_machine),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

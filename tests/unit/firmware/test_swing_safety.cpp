@@ -32,7 +32,7 @@ const ExcavatorProfile& without_swing() {
   return machine;
 }
 
-void the_swing_is_read_at_its_lever(void**) {
+TEST(the_swing_is_read_at_its_lever) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.swing.angle_rad.value = -1.5;
   inputs.swing.spool_ratio.value = 0.375;
@@ -59,7 +59,7 @@ const Row kRows[] = {
     {[](SwingInputs& in) { return &in.spool_ratio; }, Fault::kSpoolMissing, Fault::kSensorError},
 };
 
-void each_of_its_signals_is_required(void**) {
+TEST(each_of_its_signals_is_required) {
   for (const Row& row : kRows) {
     for (const Validity validity : {Validity::kNotReceived, Validity::kNotAvailable,
                                     Validity::kError, Validity::kOutOfRange}) {
@@ -80,7 +80,7 @@ void each_of_its_signals_is_required(void**) {
 }
 
 /// Whatever another machine's swing says, nothing of it is known here.
-void without_a_swing_drive_nothing_is_looked_at(void**) {
+TEST(without_a_swing_drive_nothing_is_looked_at) {
   for (const Row& row : kRows) {
     ExcavatorInputs inputs = complete_inputs(kNow);
     row.signal(inputs.swing)->validity = Validity::kError;
@@ -92,7 +92,7 @@ void without_a_swing_drive_nothing_is_looked_at(void**) {
 }
 
 /// 3.2 rad are the end of what its sensor tells.
-void an_angle_beyond_its_sensor_is_implausible(void**) {
+TEST(an_angle_beyond_its_sensor_is_implausible) {
   for (const double sign : {1.0, -1.0}) {
     ExcavatorInputs inputs = complete_inputs(kNow);
     inputs.swing.angle_rad.value = sign * 3.2;
@@ -105,7 +105,7 @@ void an_angle_beyond_its_sensor_is_implausible(void**) {
 }
 
 /// Twice its highest speed, and 15 mrad at once: a tenth of a metre at the teeth.
-void a_jump_is_not_believed(void**) {
+TEST(a_jump_is_not_believed) {
   const double most_rad = 2.0 * profile().swing.speed_max_radps * 0.010 + 0.015;
   for (const double sign : {1.0, -1.0}) {
     test::StrokesAccepted last =
@@ -121,7 +121,7 @@ void a_jump_is_not_believed(void**) {
 }
 
 /// Which task file is meant: none where the operator does not say, or no longer.
-void a_task_number_is_believed_while_it_is_fresh(void**) {
+TEST(a_task_number_is_believed_while_it_is_fresh) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   assert_int_equal(validate(inputs, profile(), {}, false, kNow).task_number, -1);
   inputs.driver.task_number.value = 3;
@@ -132,7 +132,7 @@ void a_task_number_is_believed_while_it_is_fresh(void**) {
   assert_int_equal(validate(inputs, profile(), {}, false, kNow).task_number, -1);
 }
 
-void its_spool_is_watched(void**) {
+TEST(its_spool_is_watched) {
   for (const bool has_swing : {true, false}) {
     const ExcavatorProfile& machine = has_swing ? profile() : without_swing();
     test::SpoolWatch state;
@@ -170,7 +170,7 @@ struct Swing {
 };
 
 /// 0.25 rad from where it came to rest, either way, and not a bit further.
-void a_swing_that_drifts_is_uncommanded(void**) {
+TEST(a_swing_that_drifts_is_uncommanded) {
   for (const double sign : {1.0, -1.0}) {
     Swing swing;
     swing.run(60);
@@ -182,7 +182,7 @@ void a_swing_that_drifts_is_uncommanded(void**) {
 }
 
 /// 0.5 s and the 2 s that 1 rad/s takes at 0.5 rad/s^2: 40 cycles from its spool's closing.
-void its_mass_may_come_to_rest(void**) {
+TEST(its_mass_may_come_to_rest) {
   Swing swing;
   swing.spool = kOpen;
   swing.run(60);
@@ -196,7 +196,7 @@ void its_mass_may_come_to_rest(void**) {
 }
 
 /// 0.5 rad asked of it while it stands.
-void a_swing_that_stands_still_is_stuck(void**) {
+TEST(a_swing_that_stands_still_is_stuck) {
   for (const double sign : {1.0, -1.0}) {
     Swing swing;
     swing.spool = sign * kOpen;
@@ -208,7 +208,7 @@ void a_swing_that_stands_still_is_stuck(void**) {
 }
 
 /// A swing that nothing is wanted of trips nothing, for as long as it stands.
-void a_swing_at_rest_is_well(void**) {
+TEST(a_swing_at_rest_is_well) {
   Swing swing;
   for (int n = 0; n < 2000; ++n) {
     swing.angle_rad = n % 2 == 0 ? 1e-4 : -1e-4;
@@ -217,7 +217,7 @@ void a_swing_at_rest_is_well(void**) {
 }
 
 /// Its pressures stand still over 0.06 m of travel, or at the rail.
-void its_pressures_are_watched(void**) {
+TEST(its_pressures_are_watched) {
   for (const bool right : {false, true}) {
     for (const bool has_swing : {true, false}) {
       const ExcavatorProfile& machine = has_swing ? profile() : without_swing();
@@ -242,7 +242,7 @@ void its_pressures_are_watched(void**) {
   }
 }
 
-void the_gate_lets_it_through_like_the_others(void**) {
+TEST(the_gate_lets_it_through_like_the_others) {
   const double travel_m = profile().valve.spool_travel_m;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double sign : {1.0, -1.0}) {
@@ -266,21 +266,4 @@ void the_gate_lets_it_through_like_the_others(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_swing_is_read_at_its_lever),
-      cmocka_unit_test(each_of_its_signals_is_required),
-      cmocka_unit_test(without_a_swing_drive_nothing_is_looked_at),
-      cmocka_unit_test(an_angle_beyond_its_sensor_is_implausible),
-      cmocka_unit_test(a_jump_is_not_believed),
-      cmocka_unit_test(a_task_number_is_believed_while_it_is_fresh),
-      cmocka_unit_test(its_spool_is_watched),
-      cmocka_unit_test(a_swing_that_drifts_is_uncommanded),
-      cmocka_unit_test(its_mass_may_come_to_rest),
-      cmocka_unit_test(a_swing_that_stands_still_is_stuck),
-      cmocka_unit_test(a_swing_at_rest_is_well),
-      cmocka_unit_test(its_pressures_are_watched),
-      cmocka_unit_test(the_gate_lets_it_through_like_the_others),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -41,14 +41,14 @@ struct Machine {
   }
 };
 
-void choices_are_told_apart(void**) {
+TEST(choices_are_told_apart) {
   assert_true(kFirst == kFirst);
   assert_false(kFirst == kSecond);
   assert_false(kDigging == TaskChoice({Task::kGrade, -1}));
 }
 
 /// Arming needs a task at rest, and what was armed begins at once.
-void the_first_task_begins_at_once(void**) {
+TEST(the_first_task_begins_at_once) {
   Machine machine;
   machine.at_rest = false;
   assert_true(machine.step(kNothing) == kNothing);
@@ -59,7 +59,7 @@ void the_first_task_begins_at_once(void**) {
   }
 }
 
-void outside_motion_everything_is_let_through(void**) {
+TEST(outside_motion_everything_is_let_through) {
   Machine machine;
   machine.step(kDigging);
   machine.in_motion = false;
@@ -70,7 +70,7 @@ void outside_motion_everything_is_let_through(void**) {
   assert_true(machine.step(kFirst) == kFirst);
 }
 
-void another_task_waits_for_standstill(void**) {
+TEST(another_task_waits_for_standstill) {
   for (const TaskChoice& next : {kSecond, kDigging, kNothing}) {
     Machine machine;
     machine.step(kFirst);
@@ -81,7 +81,7 @@ void another_task_waits_for_standstill(void**) {
 }
 
 /// Back to the same task counts as a change as well: it was let go in between.
-void the_same_task_again_waits_too(void**) {
+TEST(the_same_task_again_waits_too) {
   Machine machine;
   machine.step(kFirst);
   assert_true(machine.step(kNothing) == kNothing);
@@ -90,7 +90,7 @@ void the_same_task_again_waits_too(void**) {
   assert_int_equal(machine.cycles_until(kSecond), kCycles + 1);
 }
 
-void none_for_long_enough_has_waited_already(void**) {
+TEST(none_for_long_enough_has_waited_already) {
   Machine machine;
   machine.step(kFirst);
   for (int n = 0; n < kCycles + 1; ++n) {
@@ -99,7 +99,7 @@ void none_for_long_enough_has_waited_already(void**) {
   assert_true(machine.step(kFirst) == kFirst);
 }
 
-void what_moves_is_waited_for(void**) {
+TEST(what_moves_is_waited_for) {
   for (const unsigned drive : {0U, 1U}) {
     Machine machine;
     machine.step(kFirst);
@@ -117,7 +117,7 @@ void what_moves_is_waited_for(void**) {
   assert_int_equal(noisy.cycles_until(kSecond), kCycles);
 }
 
-void spools_that_are_open_are_waited_for(void**) {
+TEST(spools_that_are_open_are_waited_for) {
   Machine machine;
   machine.step(kFirst);
   machine.at_rest = false;
@@ -128,7 +128,7 @@ void spools_that_are_open_are_waited_for(void**) {
   assert_int_equal(machine.cycles_until(kSecond), kCycles);
 }
 
-void standstill_is_over_after_its_time_and_no_sooner(void**) {
+TEST(standstill_is_over_after_its_time_and_no_sooner) {
   for (const double still_s : {kStandstill_s, std::nextafter(kStandstill_s, 0.0)}) {
     Machine machine;
     machine.step(kFirst);
@@ -137,7 +137,7 @@ void standstill_is_over_after_its_time_and_no_sooner(void**) {
   }
 }
 
-void as_many_drives_as_a_machine_can_have_are_waited_for(void**) {
+TEST(as_many_drives_as_a_machine_can_have_are_waited_for) {
   TaskChangeState state;
   std::array<double, kMostDrives> travel_m{};
   const auto step = [&](const TaskChoice& asked) {
@@ -151,7 +151,7 @@ void as_many_drives_as_a_machine_can_have_are_waited_for(void**) {
 }
 
 /// What is asked for by turns begins never.
-void a_task_that_toggles_stays_at_rest(void**) {
+TEST(a_task_that_toggles_stays_at_rest) {
   Machine machine;
   machine.step(kFirst);
   machine.step(kNothing);
@@ -162,19 +162,4 @@ void a_task_that_toggles_stays_at_rest(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(choices_are_told_apart),
-      cmocka_unit_test(the_first_task_begins_at_once),
-      cmocka_unit_test(outside_motion_everything_is_let_through),
-      cmocka_unit_test(another_task_waits_for_standstill),
-      cmocka_unit_test(the_same_task_again_waits_too),
-      cmocka_unit_test(none_for_long_enough_has_waited_already),
-      cmocka_unit_test(what_moves_is_waited_for),
-      cmocka_unit_test(spools_that_are_open_are_waited_for),
-      cmocka_unit_test(standstill_is_over_after_its_time_and_no_sooner),
-      cmocka_unit_test(as_many_drives_as_a_machine_can_have_are_waited_for),
-      cmocka_unit_test(a_task_that_toggles_stays_at_rest),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -55,7 +55,7 @@ double off_line_m(const DriveVector& drives) {
 
 /// Each part after the other, its share from 0 to 1, the teeth on the line all along; then it
 /// stands at its end and says so.
-void a_program_runs_to_its_end(void**) {
+TEST(a_program_runs_to_its_end) {
   TaskMachine running(test::book_of({dig()}), beside());
   const std::pair<StepKind, int> parts[] = {{StepKind::kApproach, 0},
                                             {StepKind::kDig, 0},
@@ -104,7 +104,7 @@ void a_program_runs_to_its_end(void**) {
   }
 }
 
-void an_unknown_number_is_refused(void**) {
+TEST(an_unknown_number_is_refused) {
   TaskMachine resting(test::book_of({dig()}), beside());
   resting.driver.task_number.value = 1;
   assert_neutral(resting.step());
@@ -132,7 +132,7 @@ void assert_starts_afresh(TaskMachine& running, int number) {
 }
 
 /// Back to no task it stands; asked again it comes from where it is then.
-void a_task_withdrawn_is_forgotten(void**) {
+TEST(a_task_withdrawn_is_forgotten) {
   TaskMachine running = on_the_line();
   running.driver.task.value = Task::kNone;
   running.step();
@@ -151,7 +151,7 @@ void a_task_withdrawn_is_forgotten(void**) {
   running.run_until(steps_on);
 }
 
-void another_number_starts_afresh(void**) {
+TEST(another_number_starts_afresh) {
   TaskMachine running = on_the_line(test::book_of({dig(), dig()}));
   running.driver.task_number.value = 1;
   // It comes to rest in between.
@@ -179,7 +179,7 @@ TaskProgram behind_a_wall(double wall_m) {
 }
 
 /// The direct way would pass the wall: with arm and bucket folded in it gets there.
-void it_goes_round_a_fence_on_its_way(void**) {
+TEST(it_goes_round_a_fence_on_its_way) {
   const TaskProgram program = behind_a_wall(4.0);
   DriveVector start = program.start;
   start[kSwing] = -1.2;
@@ -194,7 +194,7 @@ void it_goes_round_a_fence_on_its_way(void**) {
 }
 
 /// Neither folded nor over it.
-void where_no_way_is_left_it_does_not_start(void**) {
+TEST(where_no_way_is_left_it_does_not_start) {
   const TaskProgram program = behind_a_wall(2.1);
   DriveVector start = program.start;
   start[kSwing] = -1.2;
@@ -210,7 +210,7 @@ void where_no_way_is_left_it_does_not_start(void**) {
 }
 
 /// A program of a machine that turns further.
-void it_stands_before_the_end_of_the_swing(void**) {
+TEST(it_stands_before_the_end_of_the_swing) {
   ExcavatorProfile narrow = test::answering_12t();
   narrow.swing.left_end_rad = 1.0;
   TaskMachine running(test::book_of({dig()}), dig().start, narrow);
@@ -223,7 +223,7 @@ void it_stands_before_the_end_of_the_swing(void**) {
 }
 
 /// Any bit of what says where on its plan it is: neutral in this cycle.
-void a_flipped_bit_of_the_place_stops(void**) {
+TEST(a_flipped_bit_of_the_place_stops) {
   const TaskMachine before = on_the_line();
   const auto assert_stops = [&before](auto&& flip) {
     TaskMachine running = before;
@@ -245,7 +245,7 @@ void a_flipped_bit_of_the_place_stops(void**) {
   assert_stops([](TaskMemory& task) { task.state.phase = TaskPhase::kApproach; });
 }
 
-void at_override_0_it_waits(void**) {
+TEST(at_override_0_it_waits) {
   TaskMachine running = on_the_line();
   running.driver.speed_override_ratio.value = 0.0;
   running.run(100);
@@ -269,7 +269,7 @@ double share_of_a_second(TaskMachine& running) {
   return running.outputs.status.progress.share - before;
 }
 
-void half_the_override_is_half_the_speed(void**) {
+TEST(half_the_override_is_half_the_speed) {
   TaskMachine whole = on_the_line();
   TaskMachine half = whole;
   half.driver.speed_override_ratio.value = 0.5;
@@ -277,7 +277,7 @@ void half_the_override_is_half_the_speed(void**) {
   assert_true(off_line_m(half.drives.value()) < 3e-3);
 }
 
-void a_lost_pressure_slows_it(void**) {
+TEST(a_lost_pressure_slows_it) {
   TaskMachine whole = on_the_line();
   TaskMachine slowed = whole;
   const double before = slowed.outputs.status.progress.share;
@@ -294,19 +294,4 @@ void a_lost_pressure_slows_it(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_program_runs_to_its_end),
-      cmocka_unit_test(an_unknown_number_is_refused),
-      cmocka_unit_test(a_task_withdrawn_is_forgotten),
-      cmocka_unit_test(another_number_starts_afresh),
-      cmocka_unit_test(it_goes_round_a_fence_on_its_way),
-      cmocka_unit_test(where_no_way_is_left_it_does_not_start),
-      cmocka_unit_test(it_stands_before_the_end_of_the_swing),
-      cmocka_unit_test(a_flipped_bit_of_the_place_stops),
-      cmocka_unit_test(at_override_0_it_waits),
-      cmocka_unit_test(half_the_override_is_half_the_speed),
-      cmocka_unit_test(a_lost_pressure_slows_it),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

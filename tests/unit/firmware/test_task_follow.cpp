@@ -60,7 +60,7 @@ DriveVector drives_off(const TaskMemory& memory, const Eigen::Vector3d& off_m) {
   return drives.value;
 }
 
-void the_swing_s_travel_is_at_its_lever(void**) {
+TEST(the_swing_s_travel_is_at_its_lever) {
   const DriveVector drives(0.4, 0.5, 0.3, -1.2);
   const DriveVector travel_m = travel_of(profile(), drives);
   assert_true(travel_m.head<3>() == drives.head<3>());
@@ -73,7 +73,7 @@ void the_swing_s_travel_is_at_its_lever(void**) {
 }
 
 /// On its place nothing is off; what is wanted is the plan's velocity by override and pace.
-void where_it_should_be_it_goes_on(void**) {
+TEST(where_it_should_be_it_goes_on) {
   TaskMemory memory = half_way(0);
   const ExcavatorServo servo = servo_at_rest(travel_of(profile(), aim_of(memory).value));
   const TaskWant whole = want(memory, servo);
@@ -97,7 +97,7 @@ void where_it_should_be_it_goes_on(void**) {
 
 /// A step that stands at its end too far from it does not go on, which the stall watch is told;
 /// what was missed is told on.
-void far_from_its_end_it_is_astray(void**) {
+TEST(far_from_its_end_it_is_astray) {
   for (const int step : {0, 1}) {
     TaskMemory memory = half_way(step);
     memory.state.time_s = dig().step[static_cast<unsigned>(step)].duration_s();
@@ -120,7 +120,7 @@ void far_from_its_end_it_is_astray(void**) {
 
 /// Off along the line is an error of the place alone; off across it is one of the path too, on a
 /// line. On a move there is no line to be off.
-void off_its_place_is_told_from_off_its_path(void**) {
+TEST(off_its_place_is_told_from_off_its_path) {
   const TaskMemory on_line = half_way(0);
   const auto at = [](const TaskMemory& memory, const Eigen::Vector3d& off_m) {
     return want(memory, servo_at_rest(travel_of(profile(), drives_off(memory, off_m))));
@@ -138,7 +138,7 @@ void off_its_place_is_told_from_off_its_path(void**) {
 }
 
 /// What is still under way is no error; beyond a drive's end nothing can be under way.
-void what_is_under_way_is_not_missed(void**) {
+TEST(what_is_under_way_is_not_missed) {
   const TaskMemory memory = half_way(0);
   ExcavatorServo servo;
   const DriveVector under_way_m(0.004, -0.006, 0.003, 0.001);
@@ -149,7 +149,7 @@ void what_is_under_way_is_not_missed(void**) {
   assert_true(std::isfinite(want(memory, servo).error_m));
 }
 
-void a_plan_of_another_machine_is_unknown(void**) {
+TEST(a_plan_of_another_machine_is_unknown) {
   const TaskMemory memory = half_way(0);
   TaskAim aim = aim_of(memory);
   aim.blind.kind = BlindKind::kOutOfReach;
@@ -158,7 +158,7 @@ void a_plan_of_another_machine_is_unknown(void**) {
 }
 
 /// At its end nothing is wanted, and the valve stays closed.
-void done_holds_nothing(void**) {
+TEST(done_holds_nothing) {
   TaskState state;
   state.phase = TaskPhase::kDone;
   const TaskWant done = want(remembered(0, state), servo_at_rest(travel_of(profile(), dig().end)));
@@ -167,7 +167,7 @@ void done_holds_nothing(void**) {
   assert_true(done.wanted_mps.isZero(0.0));
 }
 
-void what_is_remembered_is_intact(void**) {
+TEST(what_is_remembered_is_intact) {
   assert_true(TaskMemory{}.intact());
   const TaskMemory memory = half_way(1);
   assert_true(memory.intact());
@@ -191,7 +191,7 @@ void what_is_remembered_is_intact(void**) {
   assert_false(none.intact());
 }
 
-void it_goes_on_or_starts_afresh(void**) {
+TEST(it_goes_on_or_starts_afresh) {
   const TaskMemory memory = half_way(1);
   const DriveVector travel_m = travel_of(profile(), dig().end);
   const auto next = [&](const TaskMemory& last, std::uint8_t number, double followed) {
@@ -214,7 +214,7 @@ void it_goes_on_or_starts_afresh(void**) {
 }
 
 /// The lag times the change, no more than what the platform can do; none without a swing.
-void the_swing_is_led_by_its_lag(void**) {
+TEST(the_swing_is_led_by_its_lag) {
   ExcavatorProfile lagging = profile();
   lagging.control.swing_lead_s = 0.2;
   const double most_mps2 = lagging.swing.acceleration_max_radps2 * lagging.swing.lever_m;
@@ -229,7 +229,7 @@ void the_swing_is_led_by_its_lag(void**) {
 }
 
 /// Beyond its end, measured or by what is under way, the swing goes no further at all.
-void the_cap_looks_where_what_is_under_way_will_have_come(void**) {
+TEST(the_cap_looks_where_what_is_under_way_will_have_come) {
   DriveVector then = dig().start;
   then[kSwing] = profile().swing.left_end_rad - 0.05;
   const DriveVector velocity_mps = travel_of(profile(), {0.0, 0.0, 0.0, 0.5});
@@ -246,19 +246,4 @@ void the_cap_looks_where_what_is_under_way_will_have_come(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_swing_s_travel_is_at_its_lever),
-      cmocka_unit_test(where_it_should_be_it_goes_on),
-      cmocka_unit_test(far_from_its_end_it_is_astray),
-      cmocka_unit_test(off_its_place_is_told_from_off_its_path),
-      cmocka_unit_test(what_is_under_way_is_not_missed),
-      cmocka_unit_test(a_plan_of_another_machine_is_unknown),
-      cmocka_unit_test(done_holds_nothing),
-      cmocka_unit_test(what_is_remembered_is_intact),
-      cmocka_unit_test(it_goes_on_or_starts_afresh),
-      cmocka_unit_test(the_swing_is_led_by_its_lag),
-      cmocka_unit_test(the_cap_looks_where_what_is_under_way_will_have_come),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

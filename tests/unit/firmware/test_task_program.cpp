@@ -41,7 +41,7 @@ ProgramResult plan(const ProgramRequest& request) {
   return plan_program(machine().profile, request);
 }
 
-void steps_follow_each_other(void**) {
+TEST(steps_follow_each_other) {
   ProgramRequest request = plain_request();
   request.repeats = true;
   const ProgramResult result = plan(request);
@@ -68,7 +68,7 @@ ProgramResult edited(Edit&& edit) {
   return plan(request);
 }
 
-void what_is_no_request_is_refused(void**) {
+TEST(what_is_no_request_is_refused) {
   const auto bad = ProgramRefusal::kBadRequest;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   assert_int_equal(edited([](auto& r) { r.step_count = 0; }).refusal, bad);
@@ -101,7 +101,7 @@ void what_is_no_request_is_refused(void**) {
   assert_int_equal(open.step, 3);
 }
 
-void blind_spots_name_joint_and_place(void**) {
+TEST(blind_spots_name_joint_and_place) {
   const ProgramResult start = edited([](auto& r) { r.start.position_m.x() = 9.5; });
   assert_int_equal(start.refusal, ProgramRefusal::kBlindSpot);
   assert_int_equal(start.place.blind.kind, BlindKind::kOutOfReach);
@@ -117,7 +117,7 @@ void blind_spots_name_joint_and_place(void**) {
   assert_near(move.place.teeth.position_m.y(), 4.6, 0.0);
 }
 
-void the_swing_keeps_to_its_range(void**) {
+TEST(the_swing_keeps_to_its_range) {
   const ProgramResult result = edited([](auto& r) { r.step[2].to.position_m = {-4.6, 0.1, 3.4}; });
   assert_int_equal(result.refusal, ProgramRefusal::kSwingEnd);
   assert_int_equal(result.step, 2);
@@ -127,7 +127,7 @@ void the_swing_keeps_to_its_range(void**) {
   assert_near(std::atan2(at.y(), at.x()), 3.0, 2e-6);
 }
 
-void a_machine_without_swing_does_not_turn(void**) {
+TEST(a_machine_without_swing_does_not_turn) {
   const ProgramResult result = plan_program(test::excavator().profile, plain_request());
   assert_int_equal(result.refusal, ProgramRefusal::kNoSwing);
   assert_int_equal(result.step, 2);
@@ -135,7 +135,7 @@ void a_machine_without_swing_does_not_turn(void**) {
 
 /// Each end of a dig is raised to the clearance, and so are the steps that meet it there; nothing
 /// else is, and the design is the last fence.
-void digging_is_raised_above_the_design(void**) {
+TEST(digging_is_raised_above_the_design) {
   ProgramRequest request = plain_request();
   request.repeats = true;
   request.has_design = true;
@@ -165,7 +165,7 @@ void digging_is_raised_above_the_design(void**) {
 }
 
 /// The last step's end is the first one's start, though the first does not dig.
-void what_repeats_is_raised_as_one_pose(void**) {
+TEST(what_repeats_is_raised_as_one_pose) {
   const ProgramRequest plain = plain_request();
   ProgramRequest request = plain;
   request.start = plain.step[0].to;
@@ -185,7 +185,7 @@ void what_repeats_is_raised_as_one_pose(void**) {
 }
 
 /// A swing past a wall that the teeth pass by 20 um for less than a step of the walk.
-void what_is_passed_between_two_steps_is_found(void**) {
+TEST(what_is_passed_between_two_steps_is_found) {
   ProgramRequest request;
   const TeethPose ahead{{6.9, 0.0, 0.5}, 1.9};
   const auto turned = [&](double swing_rad) {
@@ -282,7 +282,7 @@ void assert_refused_at(const ProgramResult& result) {
   assert_true((machine().teeth(there).position_m - result.place.teeth.position_m).norm() < 1e-9);
 }
 
-void random_programs_stay_inside_or_say_where_not(void**) {
+TEST(random_programs_stay_inside_or_say_where_not) {
   std::array<int, 8> ended{};
   int replayed = 0;
   for (std::uint64_t seed = 0; seed < kPrograms; ++seed) {
@@ -311,17 +311,4 @@ void random_programs_stay_inside_or_say_where_not(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(steps_follow_each_other),
-      cmocka_unit_test(what_is_no_request_is_refused),
-      cmocka_unit_test(blind_spots_name_joint_and_place),
-      cmocka_unit_test(the_swing_keeps_to_its_range),
-      cmocka_unit_test(a_machine_without_swing_does_not_turn),
-      cmocka_unit_test(digging_is_raised_above_the_design),
-      cmocka_unit_test(what_repeats_is_raised_as_one_pose),
-      cmocka_unit_test(what_is_passed_between_two_steps_is_found),
-      cmocka_unit_test(random_programs_stay_inside_or_say_where_not),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

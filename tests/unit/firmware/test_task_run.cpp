@@ -48,7 +48,7 @@ TaskState at_first_step() {
 
 /// At lambda 1 every step takes what its plan says and is then seen to stand, to the cycle in which
 /// that ends.
-void the_plan_s_times_hold(void**) {
+TEST(the_plan_s_times_hold) {
   const TaskProgram task = program(false);
   TaskState state = at_first_step();
   for (int step = 0; step < 3; ++step) {
@@ -71,7 +71,7 @@ void the_plan_s_times_hold(void**) {
 }
 
 /// Whatever lambda does, the poses are those of the plan, and the velocity is along them.
-void lambda_leaves_the_path(void**) {
+TEST(lambda_leaves_the_path) {
   const TaskProgram task = program(false);
   plant::Random random(7, plant::Draw::kStart);
   TaskState state = at_first_step();
@@ -96,7 +96,7 @@ void lambda_leaves_the_path(void**) {
 }
 
 /// The velocity is the value's, by the plan's time.
-void velocity_is_the_value_s_difference(void**) {
+TEST(velocity_is_the_value_s_difference) {
   constexpr double kStep_s = 1e-5;
   const TaskProgram task = program(false);
   for (int step = 0; step < 3; ++step) {
@@ -114,7 +114,7 @@ void velocity_is_the_value_s_difference(void**) {
   }
 }
 
-void an_error_asks_for_less_pace_and_nan_for_none(void**) {
+TEST(an_error_asks_for_less_pace_and_nan_for_none) {
   const TaskProgram task = program(false);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const LineProfile& line = machine().profile.line;
@@ -140,7 +140,7 @@ void an_error_asks_for_less_pace_and_nan_for_none(void**) {
 }
 
 /// It goes on by its pace times what it may, and the pace changes no faster than its rate.
-void the_pace_changes_at_its_rate(void**) {
+TEST(the_pace_changes_at_its_rate) {
   const TaskProgram task = program(false);
   const LineProfile& line = machine().profile.line;
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -198,7 +198,7 @@ int cycles_of(double time_s) { return static_cast<int>(std::lround(time_s / kCyc
 
 /// At the end it waits for the teeth to stand there; what has been near for long goes on, and is
 /// counted.
-void a_step_ends_when_it_has_arrived(void**) {
+TEST(a_step_ends_when_it_has_arrived) {
   const int calm = cycles_of(kCalm_s);
   const int most = cycles_of(kArriveMost_s);
   const auto near_m = [](int) { return 0.9 * kSettled_m; };
@@ -227,7 +227,7 @@ void a_step_ends_when_it_has_arrived(void**) {
 }
 
 /// The next step may rely on the last one: far from its end, or nobody knows where, none goes on.
-void what_is_astray_does_not_go_on(void**) {
+TEST(what_is_astray_does_not_go_on) {
   const TaskProgram task = program(false);
   for (const double error_m : {1.1 * kMissedMost_m, std::numeric_limits<double>::quiet_NaN()}) {
     for (const int step : {0, 1}) {
@@ -257,7 +257,7 @@ void what_is_astray_does_not_go_on(void**) {
 }
 
 /// A line ends to the millimetres, and so does what leads to one; a move between moves need not.
-void how_near_depends_on_what_follows(void**) {
+TEST(how_near_depends_on_what_follows) {
   const TaskProgram once = program(false);
   const TaskProgram again = program(true);
   TaskState state = at_first_step();
@@ -278,7 +278,7 @@ void how_near_depends_on_what_follows(void**) {
   assert_int_equal(state.missed, 0);
 }
 
-void it_begins_again_if_it_repeats(void**) {
+TEST(it_begins_again_if_it_repeats) {
   const TaskProgram task = program(true);
   TaskState state = at_first_step();
   state.step = 2;
@@ -291,7 +291,7 @@ void it_begins_again_if_it_repeats(void**) {
 }
 
 /// From anywhere in the box, or a little outside of it, straight in drive space at its own pace.
-void the_approach_leads_to_the_start(void**) {
+TEST(the_approach_leads_to_the_start) {
   const TaskProgram task = program(false);
   DriveVector now = task.start;
   now[kSwing] = 2.5;
@@ -333,7 +333,7 @@ void the_approach_leads_to_the_start(void**) {
   assert_int_equal(advance(task, there, 1.0).phase, TaskPhase::kSteps);
 }
 
-void no_program_is_done(void**) {
+TEST(no_program_is_done) {
   const TaskProgram none;
   TaskState state = at_first_step();
   state.calm_s = kCalm_s;
@@ -343,19 +343,4 @@ void no_program_is_done(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_plan_s_times_hold),
-      cmocka_unit_test(lambda_leaves_the_path),
-      cmocka_unit_test(velocity_is_the_value_s_difference),
-      cmocka_unit_test(an_error_asks_for_less_pace_and_nan_for_none),
-      cmocka_unit_test(the_pace_changes_at_its_rate),
-      cmocka_unit_test(a_step_ends_when_it_has_arrived),
-      cmocka_unit_test(what_is_astray_does_not_go_on),
-      cmocka_unit_test(how_near_depends_on_what_follows),
-      cmocka_unit_test(it_begins_again_if_it_repeats),
-      cmocka_unit_test(the_approach_leads_to_the_start),
-      cmocka_unit_test(no_program_is_done),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -24,7 +24,7 @@ TiltKinematics mirrored() {
   return TiltKinematics(tilt);
 }
 
-void stroke_and_angle_belong_together(void**) {
+TEST(stroke_and_angle_belong_together) {
   for (const TiltKinematics& tilt : {shipped(), mirrored()}) {
     for (const double angle_rad : {-0.16, -0.1, 0.0, 0.05, 0.16}) {
       assert_near(tilt.angle_rad(tilt.stroke_m(angle_rad)), angle_rad, 1e-9);
@@ -40,7 +40,7 @@ void stroke_and_angle_belong_together(void**) {
 
 /// The pins as they are: half a metre above the axis, extension to the left takes the left end
 /// down.
-void the_cylinder_is_as_long_as_its_pins_are_apart(void**) {
+TEST(the_cylinder_is_as_long_as_its_pins_are_apart) {
   const TiltProfile& tilt = profile().tilt;
   const double apart_m = (tilt.eye_m - tilt.base_m).norm();
   const double turned_m =
@@ -49,14 +49,14 @@ void the_cylinder_is_as_long_as_its_pins_are_apart(void**) {
               std::abs(shipped().stroke_m(0.0) - shipped().stroke_m(-tilt.angle_most_rad)), 1e-12);
 }
 
-void a_blade_without_tilt_stays_level(void**) {
+TEST(a_blade_without_tilt_stays_level) {
   const TiltKinematics none{TiltProfile()};
   assert_near(none.stroke_max_m(), 0.0, 0.0);
   const EdgeSlope edge = edge_slope(rotation_from_pitch(0.2), -0.1, 0.0);
   assert_near(edge.slope, 0.0, 1e-15);
 }
 
-void roll_and_tilt_add_up(void**) {
+TEST(roll_and_tilt_add_up) {
   assert_near(edge_slope(rotation_from_pitch_and_roll(0.0, 0.1), 0.0, 0.0).slope, std::tan(0.1),
               1e-12);
   assert_near(edge_slope(rotation_from_pitch_and_roll(0.0, 0.07), 0.0, 0.03).slope, std::tan(0.1),
@@ -65,7 +65,7 @@ void roll_and_tilt_add_up(void**) {
   assert_near(edge_slope(rotation_from_pitch_and_roll(0.3, 0.1), 0.0, -0.1).slope, 0.0, 1e-12);
 }
 
-void its_derivatives_are_those_of_the_slope(void**) {
+TEST(its_derivatives_are_those_of_the_slope) {
   const auto slope = [](double roll_rad, double tilt_rad) {
     return edge_slope(rotation_from_pitch_and_roll(0.2, roll_rad), -0.15, tilt_rad).slope;
   };
@@ -79,7 +79,7 @@ void its_derivatives_are_those_of_the_slope(void**) {
 }
 
 /// Before the slope it leads, on it the body lies as the design does.
-void the_design_asks_for_a_tilt_where_it_changes(void**) {
+TEST(the_design_asks_for_a_tilt_where_it_changes) {
   const CrossDesign across(0.08, 0.04);
   const GradeProfile design(across.grade);
   assert_near(design.cross_at(3.0).slope, 0.04, 1e-12);
@@ -108,7 +108,7 @@ TiltCommand asked(const GradeProfile& design, const TiltSituation& at, bool fed 
   return control_tilt(profile().tilt, row(), shipped(), design, {}, at, at, fed, 0.01);
 }
 
-void the_left_end_rises_where_the_design_is_higher_there(void**) {
+TEST(the_left_end_rises_where_the_design_is_higher_there) {
   const CrossDesign left(0.06, 0.5);
   const GradeProfile design(left.grade);
   const TiltCommand command = asked(design, level_at(10.0));
@@ -120,7 +120,7 @@ void the_left_end_rises_where_the_design_is_higher_there(void**) {
   assert_near(asked(design, level_at(10.0), false).state.integral_radps, 0.0, 0.0);
 }
 
-void it_goes_along_with_the_design_and_against_the_body(void**) {
+TEST(it_goes_along_with_the_design_and_against_the_body) {
   const CrossDesign left(0.3, 0.05);
   const GradeProfile design(left.grade);
   TiltSituation at = level_at(4.0);
@@ -134,7 +134,7 @@ void it_goes_along_with_the_design_and_against_the_body(void**) {
   assert_near(asked(design, at).velocity_mps, 0.0, 1e-4);
 }
 
-void towards_the_end_of_its_stroke_it_slows(void**) {
+TEST(towards_the_end_of_its_stroke_it_slows) {
   const CrossDesign left(-0.3, -0.5);
   TiltSituation at = level_at(10.0);
   at.tilt_rad = -0.159;
@@ -145,7 +145,7 @@ void towards_the_end_of_its_stroke_it_slows(void**) {
 }
 
 /// The pump's flow is shared: what the tilt takes makes the machine slower, and slows the lift.
-void the_speed_leaves_the_tilt_its_flow(void**) {
+TEST(the_speed_leaves_the_tilt_its_flow) {
   const BladeKinematics blade(profile().blade);
   const double flow_m3ps = available_flow_m3ps(profile().implement, 157.08);
   const auto limit_mps = [&](double per_m) {
@@ -171,18 +171,4 @@ void the_speed_leaves_the_tilt_its_flow(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(stroke_and_angle_belong_together),
-      cmocka_unit_test(the_cylinder_is_as_long_as_its_pins_are_apart),
-      cmocka_unit_test(a_blade_without_tilt_stays_level),
-      cmocka_unit_test(roll_and_tilt_add_up),
-      cmocka_unit_test(its_derivatives_are_those_of_the_slope),
-      cmocka_unit_test(the_design_asks_for_a_tilt_where_it_changes),
-      cmocka_unit_test(the_left_end_rises_where_the_design_is_higher_there),
-      cmocka_unit_test(it_goes_along_with_the_design_and_against_the_body),
-      cmocka_unit_test(towards_the_end_of_its_stroke_it_slows),
-      cmocka_unit_test(the_speed_leaves_the_tilt_its_flow),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -19,7 +19,7 @@ DozerProfile on(const CrossDesign& design) {
   return profile;
 }
 
-void the_edge_takes_on_the_designs_slope(void**) {
+TEST(the_edge_takes_on_the_designs_slope) {
   const CrossDesign design(0.05, 0.03);
   Grading grading(on(design));
   assert_true(grading.outputs.tilts);
@@ -32,7 +32,7 @@ void the_edge_takes_on_the_designs_slope(void**) {
 }
 
 /// The body's roll is measured, and what of it the blade has to make up for.
-void a_rolled_body_is_made_up_for(void**) {
+TEST(a_rolled_body_is_made_up_for) {
   const CrossDesign level(0.0, 0.0);
   Grading grading(on(level));
   for (int n = 0; n < 200; ++n) {
@@ -57,7 +57,7 @@ void assert_stops(Fault fault, const std::function<void(DozerInputs&)>& change) 
   test::assert_neutral(grading.outputs);
 }
 
-void what_the_tilt_needs_is_required(void**) {
+TEST(what_the_tilt_needs_is_required) {
   assert_stops(Fault::kPoseMissing, [](DozerInputs& inputs) {
     inputs.body.roll_rad.validity = Validity::kNotAvailable;
   });
@@ -73,7 +73,7 @@ void what_the_tilt_needs_is_required(void**) {
 }
 
 /// In motion it would be a jump first.
-void what_cannot_be_keeps_it_from_arming(void**) {
+TEST(what_cannot_be_keeps_it_from_arming) {
   const CrossDesign design(0.05, 0.03);
   const auto fault_of = [&](const std::function<void(DozerInputs&)>& change) {
     Grading grading(on(design));
@@ -91,12 +91,12 @@ void what_cannot_be_keeps_it_from_arming(void**) {
                    Fault::kPoseImplausible);
 }
 
-void a_tilt_spool_that_stays_open_is_stuck(void**) {
+TEST(a_tilt_spool_that_stays_open_is_stuck) {
   assert_stops(Fault::kSpoolStuck,
                [](DozerInputs& inputs) { inputs.tilt_spool_ratio.value = 0.8; });
 }
 
-void a_roll_that_does_not_go_with_its_rate_is_seen(void**) {
+TEST(a_roll_that_does_not_go_with_its_rate_is_seen) {
   double roll_rad = 0.0;
   assert_stops(Fault::kPoseDisagrees, [&roll_rad](DozerInputs& inputs) {
     roll_rad += 5e-4;
@@ -105,7 +105,7 @@ void a_roll_that_does_not_go_with_its_rate_is_seen(void**) {
 }
 
 /// Nothing of it is asked of a machine without.
-void a_machine_without_tilt_needs_none_of_it(void**) {
+TEST(a_machine_without_tilt_needs_none_of_it) {
   Grading grading;
   grading.run(50);
   assert_false(grading.outputs.tilts);
@@ -115,15 +115,4 @@ void a_machine_without_tilt_needs_none_of_it(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_edge_takes_on_the_designs_slope),
-      cmocka_unit_test(a_rolled_body_is_made_up_for),
-      cmocka_unit_test(what_the_tilt_needs_is_required),
-      cmocka_unit_test(what_cannot_be_keeps_it_from_arming),
-      cmocka_unit_test(a_tilt_spool_that_stays_open_is_stuck),
-      cmocka_unit_test(a_roll_that_does_not_go_with_its_rate_is_seen),
-      cmocka_unit_test(a_machine_without_tilt_needs_none_of_it),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -32,7 +32,7 @@ void lift(LoadWorld& world, double load_kg) {
   world.move(StepKind::kLift, kLow, kLifted, 8.0);
 }
 
-void force_at_rest(void**) {
+TEST(force_at_rest) {
   for (const Eigen::Vector2d& force_n :
        {Eigen::Vector2d(30e3, 0.0), Eigen::Vector2d(0.0, 20e3), Eigen::Vector2d(25e3, -15e3)}) {
     LoadWorld world;
@@ -52,7 +52,7 @@ void force_at_rest(void**) {
 }
 
 // What is off is learnt in the air; the load is then known through it all.
-void payload_with_all_that_is_off(void**) {
+TEST(payload_with_all_that_is_off) {
   LoadWorld world;
   world.offset_n = {15e3, -6e3, 4e3};
   world.coulomb_n = {5e3, 2.5e3, 3e3};
@@ -73,7 +73,7 @@ void payload_with_all_that_is_off(void**) {
 }
 
 // Without a move in the air the deviation says how little is known, and holds.
-void nothing_learnt_yet(void**) {
+TEST(nothing_learnt_yet) {
   LoadWorld world;
   world.offset_n = {9e3, -4e3, 3e3};
   lift(world, 1000.0);
@@ -83,7 +83,7 @@ void nothing_learnt_yet(void**) {
   assert_true(std::abs(told.payload_kg - 1000.0) < 3.0 * told.payload_sd_kg);
 }
 
-void friction_is_learnt(void**) {
+TEST(friction_is_learnt) {
   LoadWorld world;
   world.coulomb_n = {7e3, 1e3, 2e3};
   world.viscous_nspm = {35e3, 20e3, 15e3};
@@ -106,7 +106,7 @@ void same_terms(const LoadTerms& a, const LoadTerms& b) {
 }
 
 // In the ground, standing on it, by hand, held by something: no offset is learnt.
-void held_is_not_learnt(void**) {
+TEST(held_is_not_learnt) {
   constexpr TipPose kOnGround = {6.5, -1.74, 2.0};
   for (const StepKind kind : {StepKind::kApproach, StepKind::kReturnToDig, StepKind::kDig,
                               StepKind::kNone, StepKind::kDone}) {
@@ -137,7 +137,7 @@ void held_is_not_learnt(void**) {
 }
 
 // It goes back through what it has poured.
-void its_own_heap_is_not_learnt(void**) {
+TEST(its_own_heap_is_not_learnt) {
   LoadWorld world;
   wave_empty(world);
   lift(world, 1200.0);
@@ -155,7 +155,7 @@ void its_own_heap_is_not_learnt(void**) {
 }
 
 // A heap has sides: beside them the empty bucket is free, and a bucket that was emptied stays so.
-void beside_its_heap_is_learnt(void**) {
+TEST(beside_its_heap_is_learnt) {
   LoadWorld world;
   wave_empty(world);
   lift(world, 1500.0);
@@ -171,7 +171,7 @@ void beside_its_heap_is_learnt(void**) {
 }
 
 // An arm that moves weighs as well as a boom, and what a jerk has taught is forgotten.
-void weighed_without_the_boom(void**) {
+TEST(weighed_without_the_boom) {
   LoadWorld world;
   wave_empty(world);
   world.load_kg = 1100.0;
@@ -185,7 +185,7 @@ void weighed_without_the_boom(void**) {
 }
 
 // A bucket that opens has begun to lose what was weighed.
-void sliding_soil_is_not_weighed(void**) {
+TEST(sliding_soil_is_not_weighed) {
   LoadWorld world;
   wave_empty(world);
   lift(world, 1000.0);
@@ -196,7 +196,7 @@ void sliding_soil_is_not_weighed(void**) {
   assert_near(world.told().payload_kg, weighed_kg, 10.0);
 }
 
-void not_known(void**) {
+TEST(not_known) {
   LoadWorld world;
   wave_empty(world);
   assert_true(world.told().known);
@@ -220,7 +220,7 @@ void not_known(void**) {
 }
 
 // In motion the cylinders' power is what kinetic and potential energy gain.
-void power(void**) {
+TEST(power) {
   const ExcavatorProfile& machine = LoadWorld::machine();
   const Eigen::Vector3d at(0.7, -1.2, -0.9);
   const Eigen::Vector3d rates(0.4, -0.6, 0.9);
@@ -251,7 +251,7 @@ void power(void**) {
 }
 
 // A platform that turns throws what is out outwards: less boom is needed, as if it were lighter.
-void swing(void**) {
+TEST(swing) {
   const ExcavatorProfile& machine = LoadWorld::machine();
   const LinkPlaces at = link_places(machine.oil, machine.geometry, {0.7, -1.2, -0.9});
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
@@ -265,20 +265,4 @@ void swing(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(force_at_rest),
-      cmocka_unit_test(payload_with_all_that_is_off),
-      cmocka_unit_test(nothing_learnt_yet),
-      cmocka_unit_test(friction_is_learnt),
-      cmocka_unit_test(held_is_not_learnt),
-      cmocka_unit_test(its_own_heap_is_not_learnt),
-      cmocka_unit_test(beside_its_heap_is_learnt),
-      cmocka_unit_test(weighed_without_the_boom),
-      cmocka_unit_test(sliding_soil_is_not_weighed),
-      cmocka_unit_test(not_known),
-      cmocka_unit_test(power),
-      cmocka_unit_test(swing),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -50,7 +50,7 @@ struct Machine {
   }
 };
 
-void what_obeys_is_left_alone(void**) {
+TEST(what_obeys_is_left_alone) {
   for (const double pump_ratio : {1.0, 0.5, 0.0, -0.5}) {
     Machine machine;
     machine.drive(pump_ratio);
@@ -65,7 +65,7 @@ void what_obeys_is_left_alone(void**) {
 }
 
 /// Each of the four. Stays behind: 0.5 s are eight cycles.
-void each_displacement_is_watched(void**) {
+TEST(each_displacement_is_watched) {
   for (unsigned track = 0; track < kTrackCount; ++track) {
     for (const bool motor : {false, true}) {
       Machine behind;
@@ -85,7 +85,7 @@ void each_displacement_is_watched(void**) {
 }
 
 /// For longer than 0.3 s, standing by more than the tolerance; a tenth of the speed more otherwise.
-void a_track_off_its_displacements_disagrees(void**) {
+TEST(a_track_off_its_displacements_disagrees) {
   for (const double sign : {1.0, -1.0}) {
     Machine machine;
     machine.drive(0.0);
@@ -100,7 +100,7 @@ void a_track_off_its_displacements_disagrees(void**) {
 }
 
 /// In this cycle already; said after more than 0.1 s.
-void a_sensor_that_nothing_confirms_is_outvoted(void**) {
+TEST(a_sensor_that_nothing_confirms_is_outvoted) {
   for (unsigned track = 0; track < kTrackCount; ++track) {
     for (const double sign : {1.0, -1.0}) {
       Machine machine;
@@ -117,7 +117,7 @@ void a_sensor_that_nothing_confirms_is_outvoted(void**) {
   }
 }
 
-void one_that_agrees_with_a_sensor_is_enough(void**) {
+TEST(one_that_agrees_with_a_sensor_is_enough) {
   Machine like_body;
   like_body.run_at(1.3);
   static_cast<void>(like_body.step());
@@ -129,7 +129,7 @@ void one_that_agrees_with_a_sensor_is_enough(void**) {
 }
 
 /// The body's speed is that along the slope.
-void on_a_slope_the_body_is_faster_than_its_position(void**) {
+TEST(on_a_slope_the_body_is_faster_than_its_position) {
   Machine machine;
   machine.valid.pitch_rad = 0.75;
   machine.valid.velocity_mps = 1.5 * std::cos(0.75);
@@ -139,7 +139,7 @@ void on_a_slope_the_body_is_faster_than_its_position(void**) {
 }
 
 /// For more than 0.2 s by more than 0.1 m/s, either side and way, and a twentieth of the speed.
-void sides_apart_disagree(void**) {
+TEST(sides_apart_disagree) {
   for (unsigned track = 0; track < kTrackCount; ++track) {
     for (const double sign : {1.0, -1.0}) {
       Machine machine;
@@ -156,7 +156,7 @@ void sides_apart_disagree(void**) {
 }
 
 /// Neither after motion, nor without a task, nor without an engine speed; nothing is kept.
-void tracks_are_judged_where_they_can_be(void**) {
+TEST(tracks_are_judged_where_they_can_be) {
   const auto off = [](Machine& machine) {
     machine.valid.track_speed_mps = {3.0, 1.0};
     static_cast<void>(machine.step(1.0));
@@ -178,7 +178,7 @@ void tracks_are_judged_where_they_can_be(void**) {
   assert_false(machine.step(0.01).tracks_disagree);
 }
 
-void the_transmission_speaks_for_both_tracks(void**) {
+TEST(the_transmission_speaks_for_both_tracks) {
   Machine machine;
   machine.valid.pump_ratio = {0.5, 0.25};
   machine.valid.track_speed_mps = {1.5, 0.75};
@@ -192,7 +192,7 @@ void the_transmission_speaks_for_both_tracks(void**) {
   assert_near(speeds.transmission_mps, 1.5, 0.0);
 }
 
-void both_pumps_have_to_be_neutral(void**) {
+TEST(both_pumps_have_to_be_neutral) {
   for (unsigned track = 0; track < kTrackCount; ++track) {
     for (const double sign : {1.0, -1.0}) {
       Machine machine;
@@ -207,7 +207,7 @@ void both_pumps_have_to_be_neutral(void**) {
 }
 
 /// 0.1 m/s and a fifth of the speed instead of a twentieth, for longer than 0.2 s.
-void sides_may_be_further_apart_where_the_track_bends(void**) {
+TEST(sides_may_be_further_apart_where_the_track_bends) {
   static const double level_m[] = {0.0, 0.0};
   static const double curvature_1pm[] = {0.0625, 0.0625};
   for (const bool bends : {false, true}) {
@@ -227,19 +227,4 @@ void sides_may_be_further_apart_where_the_track_bends(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_obeys_is_left_alone),
-      cmocka_unit_test(each_displacement_is_watched),
-      cmocka_unit_test(a_track_off_its_displacements_disagrees),
-      cmocka_unit_test(a_sensor_that_nothing_confirms_is_outvoted),
-      cmocka_unit_test(one_that_agrees_with_a_sensor_is_enough),
-      cmocka_unit_test(on_a_slope_the_body_is_faster_than_its_position),
-      cmocka_unit_test(sides_apart_disagree),
-      cmocka_unit_test(tracks_are_judged_where_they_can_be),
-      cmocka_unit_test(the_transmission_speaks_for_both_tracks),
-      cmocka_unit_test(both_pumps_have_to_be_neutral),
-      cmocka_unit_test(sides_may_be_further_apart_where_the_track_bends),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -32,7 +32,7 @@ SpeedChoice after(const SpeedDemand& demand, double seconds, SpeedState state = 
   return choice;
 }
 
-void it_rises_at_its_limit_to_what_is_desired(void**) {
+TEST(it_rises_at_its_limit_to_what_is_desired) {
   const SpeedChoice early = after(easy(), 1.0);
   assert_near(early.state.speed_mps, 0.5, 1e-9);
   assert_int_equal(early.limit.kind, LimitKind::kRise);
@@ -42,7 +42,7 @@ void it_rises_at_its_limit_to_what_is_desired(void**) {
 }
 
 /// (13), (14).
-void the_transmission_holds_it(void**) {
+TEST(the_transmission_holds_it) {
   SpeedDemand demand = easy();
   demand.desired_mps = 3.0;
   const SpeedChoice choice = after(demand, 9.0);
@@ -55,7 +55,7 @@ void the_transmission_holds_it(void**) {
 }
 
 /// (10), (11): twice the flow at this speed means half the speed.
-void measured_flow_holds_it(void**) {
+TEST(measured_flow_holds_it) {
   SpeedDemand demand = easy();
   demand.required_flow_m3ps = 2.0 * demand.available_flow_m3ps;
   SpeedState fast;
@@ -69,7 +69,7 @@ void measured_flow_holds_it(void**) {
 }
 
 /// Without flow nothing is divided by it; at standstill not by the speed.
-void what_is_zero_is_not_divided_by(void**) {
+TEST(what_is_zero_is_not_divided_by) {
   SpeedDemand demand = easy();
   demand.measured_mps = 0.0;
   demand.required_flow_m3ps = 0.0;
@@ -79,7 +79,7 @@ void what_is_zero_is_not_divided_by(void**) {
 }
 
 /// v_min keeps it going; only the operator brings it to rest.
-void it_is_never_held_below_v_min(void**) {
+TEST(it_is_never_held_below_v_min) {
   SpeedDemand demand = easy();
   demand.ahead = {0.001, 0.001};
   demand.required_flow_m3ps = 50.0 * demand.available_flow_m3ps;
@@ -88,7 +88,7 @@ void it_is_never_held_below_v_min(void**) {
   assert_near(after(demand, 5.0).state.speed_mps, 0.0, 1e-12);
 }
 
-void it_brakes_no_harder_than_it_may(void**) {
+TEST(it_brakes_no_harder_than_it_may) {
   SpeedState fast;
   fast.speed_mps = 1.6;
   SpeedDemand demand = easy();
@@ -100,7 +100,7 @@ void it_brakes_no_harder_than_it_may(void**) {
 }
 
 /// Algorithm 1: at home it rises to what is allowed, off home no further than the lowest ahead.
-void off_home_it_rises_no_higher_than_what_lies_ahead(void**) {
+TEST(off_home_it_rises_no_higher_than_what_lies_ahead) {
   SpeedDemand demand = easy();
   demand.ahead = {1.5, 0.6};
   assert_near(after(demand, 6.0).state.speed_mps, 1.5, 1e-12);
@@ -113,7 +113,7 @@ void off_home_it_rises_no_higher_than_what_lies_ahead(void**) {
 }
 
 /// A limit that trembles lets it fall, and then stay.
-void a_trembling_limit_does_not_make_it_tremble(void**) {
+TEST(a_trembling_limit_does_not_make_it_tremble) {
   SpeedState state;
   state.speed_mps = 0.8;
   int rises = 0;
@@ -130,7 +130,7 @@ void a_trembling_limit_does_not_make_it_tremble(void**) {
 }
 
 /// Off the grade it crawls, near it the error counts for nothing.
-void off_the_grade_it_slows_down(void**) {
+TEST(off_the_grade_it_slows_down) {
   SpeedDemand demand = easy();
   const double allowed_m = profile().grade.tolerance_m;
   demand.off_m = -kOnGrade * allowed_m;
@@ -143,7 +143,7 @@ void off_the_grade_it_slows_down(void**) {
   assert_near(after(demand, 6.0).state.speed_mps, 0.1, 1e-12);
 }
 
-void constant_asks_neither_blade_nor_ground(void**) {
+TEST(constant_asks_neither_blade_nor_ground) {
   DozerProfile constant = profile();
   constant.travel.policy = SpeedPolicy::kConstant;
   SpeedDemand demand = easy();
@@ -159,18 +159,4 @@ void constant_asks_neither_blade_nor_ground(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_rises_at_its_limit_to_what_is_desired),
-      cmocka_unit_test(the_transmission_holds_it),
-      cmocka_unit_test(measured_flow_holds_it),
-      cmocka_unit_test(what_is_zero_is_not_divided_by),
-      cmocka_unit_test(it_is_never_held_below_v_min),
-      cmocka_unit_test(it_brakes_no_harder_than_it_may),
-      cmocka_unit_test(off_home_it_rises_no_higher_than_what_lies_ahead),
-      cmocka_unit_test(a_trembling_limit_does_not_make_it_tremble),
-      cmocka_unit_test(off_the_grade_it_slows_down),
-      cmocka_unit_test(constant_asks_neither_blade_nor_ground),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

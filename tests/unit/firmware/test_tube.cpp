@@ -27,7 +27,7 @@ Fault after(TubeState& state, double error_m, bool active = true) {
   return told(state);
 }
 
-void it_may_begin_anywhere_and_come_near(void**) {
+TEST(it_may_begin_anywhere_and_come_near) {
   TubeState state;
   assert_int_equal(told(state), Fault::kNone);
   for (const double error_m : {4.0, 4.25, 2.0, 2.25, 0.0, 0.25}) {
@@ -37,7 +37,7 @@ void it_may_begin_anywhere_and_come_near(void**) {
   assert_int_equal(after(state, 0.25), Fault::kNone);
 }
 
-void away_from_where_it_came_to_is_outside(void**) {
+TEST(away_from_where_it_came_to_is_outside) {
   TubeState state;
   static_cast<void>(after(state, 2.0));
   assert_int_equal(after(state, 2.2501), Fault::kPathLeft);
@@ -46,7 +46,7 @@ void away_from_where_it_came_to_is_outside(void**) {
   assert_int_equal(after(fresh, std::numeric_limits<double>::infinity()), Fault::kPathLeft);
 }
 
-void the_next_task_begins_newly(void**) {
+TEST(the_next_task_begins_newly) {
   TubeState state;
   static_cast<void>(after(state, 0.0));
   static_cast<void>(after(state, 1.0));
@@ -59,7 +59,7 @@ Fault above(TubeState& state, double error_m, bool active = true) {
   return told(state);
 }
 
-void below_a_surface_is_never_far(void**) {
+TEST(below_a_surface_is_never_far) {
   TubeState state;
   assert_int_equal(above(state, -0.25), Fault::kNone);
   assert_int_equal(above(state, std::nextafter(-0.25, -1.0)), Fault::kPathLeft);
@@ -74,12 +74,4 @@ void below_a_surface_is_never_far(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_may_begin_anywhere_and_come_near),
-      cmocka_unit_test(away_from_where_it_came_to_is_outside),
-      cmocka_unit_test(the_next_task_begins_newly),
-      cmocka_unit_test(below_a_surface_is_never_far),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -25,7 +25,7 @@ Fault fault_of(const ExcavatorInputs& inputs) {
   return validate(inputs, profile(), {}, false, kNow).fault;
 }
 
-void complete_inputs_become_a_state(void**) {
+TEST(complete_inputs_become_a_state) {
   const test::Validated valid = validate(complete_inputs(kNow), profile(), {}, false, kNow);
   assert_int_equal(valid.fault, Fault::kNone);
   assert_true(valid.enable && valid.automatic);
@@ -40,14 +40,14 @@ void complete_inputs_become_a_state(void**) {
 }
 
 /// 2 pi 1e-5 and 4 pi 1e-5 m3/rev; a swash that reads below zero pumps nothing.
-void flow_is_displacement_speed_and_swash(void**) {
+TEST(flow_is_displacement_speed_and_swash) {
   assert_near(pump_flow_m3ps(profile().pump[0], 200.0, 0.5), 1e-3, 1e-15);
   assert_near(pump_flow_m3ps(profile().pump[1], 200.0, 0.75), 3e-3, 1e-15);
   assert_near(pump_flow_m3ps(profile().pump[0], 200.0, -0.01), 0.0, 0.0);
 }
 
 /// What a machine with one pump says of a second is neither missed nor read.
-void a_second_pump_that_is_not_there(void**) {
+TEST(a_second_pump_that_is_not_there) {
   ExcavatorProfile single = profile();
   single.pump_count = 1;
   ExcavatorInputs inputs = complete_inputs(kNow);
@@ -63,7 +63,7 @@ void a_second_pump_that_is_not_there(void**) {
 }
 
 /// Every required signal, each in every state that is not usable, gives its own fault.
-void each_signal_is_required(void**) {
+TEST(each_signal_is_required) {
   struct Row {
     Signal<double>* (*signal)(ExcavatorInputs&);
     Fault fault;
@@ -109,7 +109,7 @@ void each_signal_is_required(void**) {
   }
 }
 
-void a_value_that_is_no_number_is_missing(void**) {
+TEST(a_value_that_is_no_number_is_missing) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.axis[0].stroke_m.value = std::numeric_limits<double>::quiet_NaN();
   assert_int_equal(fault_of(inputs), Fault::kStrokeMissing);
@@ -118,7 +118,7 @@ void a_value_that_is_no_number_is_missing(void**) {
   assert_int_equal(fault_of(inputs), Fault::kOperatorMissing);
 }
 
-void enable_must_be_fresh(void**) {
+TEST(enable_must_be_fresh) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.driver.enable.stamp_us = kNow - 60 * kMillisecondUs;
   const test::Validated stale = validate(inputs, profile(), {}, false, kNow);
@@ -127,7 +127,7 @@ void enable_must_be_fresh(void**) {
 }
 
 /// Each of the operator's signals by itself; without them there is neither task nor speed.
-void the_operator_must_be_whole(void**) {
+TEST(the_operator_must_be_whole) {
   const auto stale = kNow - 60 * kMillisecondUs;
   void (*const losses[])(OperatorInputs&) = {
       [](OperatorInputs& driver) { driver.enable.stamp_us = stale; },
@@ -147,7 +147,7 @@ void the_operator_must_be_whole(void**) {
   }
 }
 
-void what_the_operator_gives_is_read(void**) {
+TEST(what_the_operator_gives_is_read) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.driver.enable.value = false;
   inputs.driver.mode.value = OperatorMode::kManual;
@@ -162,7 +162,7 @@ void what_the_operator_gives_is_read(void**) {
 }
 
 /// The echo belongs to the spools' frame.
-void the_valves_echo_is_required(void**) {
+TEST(the_valves_echo_is_required) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.valve_enabled.value = true;
   assert_true(validate(inputs, profile(), {}, false, kNow).valve_enabled);
@@ -176,7 +176,7 @@ void the_valves_echo_is_required(void**) {
 }
 
 /// A machine with another profile, one that does not say, and one that fell silent.
-void another_machine_is_refused(void**) {
+TEST(another_machine_is_refused) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.same_machine.value = false;
   assert_int_equal(fault_of(inputs), Fault::kIdentityMismatch);
@@ -188,7 +188,7 @@ void another_machine_is_refused(void**) {
   assert_int_equal(fault_of(inputs), Fault::kIdentityMismatch);
 }
 
-void strokes_outside_their_cylinder_are_implausible(void**) {
+TEST(strokes_outside_their_cylinder_are_implausible) {
   const double most = profile().geometry.cylinder[kBucket].stroke_m;
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.axis[kBucket].stroke_m.value = most + 0.002;  // A worn encoder at the stroke's end.
@@ -210,7 +210,7 @@ void strokes_outside_their_cylinder_are_implausible(void**) {
 }
 
 /// Each of its own; no pressure is below nothing because of it, and one that is stays so.
-void zeros_are_taken_off(void**) {
+TEST(zeros_are_taken_off) {
   ExcavatorProfile machine = profile();
   machine.sensor_zero.stroke_m = {0.01, -0.02, 0.03};
   machine.sensor_zero.cap_pa = {1e6, -0.5e6, 5e6};
@@ -231,7 +231,7 @@ void zeros_are_taken_off(void**) {
 }
 
 /// Levers and duties, all in their places, and at rest where they are.
-void what_the_hands_do_is_read(void**) {
+TEST(what_the_hands_do_is_read) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   test::Validated valid = validate(inputs, profile(), {}, false, kNow);
   assert_true(valid.hands_rest());
@@ -250,7 +250,7 @@ void what_the_hands_do_is_read(void**) {
 }
 
 /// Only the task that goes by them needs them, as fresh as all that the operator gives.
-void a_task_by_hand_needs_its_hands(void**) {
+TEST(a_task_by_hand_needs_its_hands) {
   for (const Task task : {Task::kDig, Task::kJog, Task::kCoordinated, Task::kCommission}) {
     const bool by_lever = task == Task::kJog || task == Task::kCoordinated;
     ExcavatorInputs inputs = complete_inputs(kNow);
@@ -279,7 +279,7 @@ void a_task_by_hand_needs_its_hands(void**) {
   }
 }
 
-void no_three_duties_are_tried(void**) {
+TEST(no_three_duties_are_tried) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.driver.task.value = Task::kCommission;
   inputs.tried_ratio = test::fresh(std::array<double, 3>{0.1, 0.0, -0.1}, kNow);
@@ -291,7 +291,7 @@ void no_three_duties_are_tried(void**) {
 }
 
 /// Windows come by turns: each counts for a second.
-void windows_hold_for_a_second(void**) {
+TEST(windows_hold_for_a_second) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     ExcavatorInputs inputs = complete_inputs(kNow);
     inputs.window[axis] = test::fresh(StrokeWindow{0.1, 0.2, 0.3}, kNow - kSecondUs);
@@ -310,7 +310,7 @@ void windows_hold_for_a_second(void**) {
 }
 
 /// Strokes found from IMUs stand in the place of those that are sent, and as they do.
-void strokes_from_imus_stand_as_measured_ones(void**) {
+TEST(strokes_from_imus_stand_as_measured_ones) {
   ExcavatorProfile machine = profile();
   machine.imu.mount[0].address = 226;
   const ExcavatorBank bank = excavator_bank(machine);
@@ -335,25 +335,4 @@ void strokes_from_imus_stand_as_measured_ones(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(complete_inputs_become_a_state),
-      cmocka_unit_test(flow_is_displacement_speed_and_swash),
-      cmocka_unit_test(a_second_pump_that_is_not_there),
-      cmocka_unit_test(each_signal_is_required),
-      cmocka_unit_test(a_value_that_is_no_number_is_missing),
-      cmocka_unit_test(enable_must_be_fresh),
-      cmocka_unit_test(the_operator_must_be_whole),
-      cmocka_unit_test(what_the_operator_gives_is_read),
-      cmocka_unit_test(the_valves_echo_is_required),
-      cmocka_unit_test(another_machine_is_refused),
-      cmocka_unit_test(strokes_outside_their_cylinder_are_implausible),
-      cmocka_unit_test(zeros_are_taken_off),
-      cmocka_unit_test(what_the_hands_do_is_read),
-      cmocka_unit_test(a_task_by_hand_needs_its_hands),
-      cmocka_unit_test(no_three_duties_are_tried),
-      cmocka_unit_test(windows_hold_for_a_second),
-      cmocka_unit_test(strokes_from_imus_stand_as_measured_ones),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

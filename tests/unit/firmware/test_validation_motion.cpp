@@ -54,7 +54,7 @@ void assert_degrades(Fault fault, const ExcavatorInputs& inputs) {
   assert_true(moving.degraded.bits() == moving.faults.bits());
 }
 
-void a_lost_pressure_slows_and_its_load_is_unknown(void**) {
+TEST(a_lost_pressure_slows_and_its_load_is_unknown) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (const bool rod : {false, true}) {
       ExcavatorInputs inputs = complete_inputs(kNow);
@@ -69,7 +69,7 @@ void a_lost_pressure_slows_and_its_load_is_unknown(void**) {
 }
 
 /// Without its speed the engine is reckoned with at its slowest.
-void a_lost_engine_speed_slows_to_idle(void**) {
+TEST(a_lost_engine_speed_slows_to_idle) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   assert_near(judged(inputs, kMoving).engine_radps, 188.5, 0.0);
   inputs.engine_speed_radps.stamp_us = kStale;
@@ -79,13 +79,13 @@ void a_lost_engine_speed_slows_to_idle(void**) {
   }
 }
 
-void a_value_out_of_range_slows(void**) {
+TEST(a_value_out_of_range_slows) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.link.out_of_range = true;
   assert_degrades(Fault::kValueOutOfRange, inputs);
 }
 
-void all_else_that_is_lost_stops(void**) {
+TEST(all_else_that_is_lost_stops) {
   ExcavatorInputs stroke = complete_inputs(kNow);
   stroke.axis[1].stroke_m.stamp_us = kStale;
   assert_stops(Fault::kStrokeMissing, stroke);
@@ -107,7 +107,7 @@ void all_else_that_is_lost_stops(void**) {
 }
 
 /// What only slows does not hide what stops, whichever comes first.
-void the_first_that_stops_is_named(void**) {
+TEST(the_first_that_stops_is_named) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.axis[0].cap_pressure_pa.stamp_us = kStale;
   inputs.swash_ratio[0].stamp_us = kStale;
@@ -123,7 +123,7 @@ void the_first_that_stops_is_named(void**) {
   assert_int_equal(judged(inputs, !kMoving).fault, Fault::kPressureMissing);
 }
 
-void only_an_active_bus_will_do(void**) {
+TEST(only_an_active_bus_will_do) {
   struct Row {
     BusState bus;
     Fault fault;
@@ -139,7 +139,7 @@ void only_an_active_bus_will_do(void**) {
   }
 }
 
-void one_dropped_command_is_borne(void**) {
+TEST(one_dropped_command_is_borne) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   for (const int dropped : {0, 1}) {
     inputs.link.dropped_cycles = dropped;
@@ -153,7 +153,7 @@ void one_dropped_command_is_borne(void**) {
   }
 }
 
-void faults_of_messages_stop(void**) {
+TEST(faults_of_messages_stop) {
   for (const Fault fault :
        {Fault::kMessageCorrupt, Fault::kMessageSequence, Fault::kMessageMasquerade}) {
     ExcavatorInputs inputs = complete_inputs(kNow);
@@ -163,7 +163,7 @@ void faults_of_messages_stop(void**) {
 }
 
 /// 'Error' is named beside the loss; 'not available' is a loss only.
-void a_sensors_own_error_is_named(void**) {
+TEST(a_sensors_own_error_is_named) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     ExcavatorInputs inputs = complete_inputs(kNow);
     inputs.axis[axis].stroke_m.validity = Validity::kError;
@@ -174,7 +174,7 @@ void a_sensors_own_error_is_named(void**) {
   }
 }
 
-void the_other_sensors_own_errors_are_named_too(void**) {
+TEST(the_other_sensors_own_errors_are_named_too) {
   struct Row {
     Signal<double>* (*signal)(ExcavatorInputs&);
     Fault wrong;
@@ -199,7 +199,7 @@ void the_other_sensors_own_errors_are_named_too(void**) {
 }
 
 /// An engine beyond any speed of its own is none: its pumps' flow would lift lambda.
-void an_engine_too_fast_is_not_believed(void**) {
+TEST(an_engine_too_fast_is_not_believed) {
   const double most_radps = 1.2 * profile().pump[0].rated_speed_radps;
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.engine_speed_radps.value = most_radps;
@@ -210,7 +210,7 @@ void an_engine_too_fast_is_not_believed(void**) {
   assert_near(judged(inputs, kMoving).engine_radps, profile().safety.idle_radps, 0.0);
 }
 
-void no_pump_gives_more_than_at_full_swash(void**) {
+TEST(no_pump_gives_more_than_at_full_swash) {
   const PumpProfile& pump = profile().pump[0];
   const double full_m3ps = pump_flow_m3ps(pump, 100.0, 1.0);
   assert_true(full_m3ps > 0.0);
@@ -255,7 +255,7 @@ double reach_m(unsigned axis, int cycles) {
 
 /// As fast as the cylinder can is believed, faster is not: each axis, both ways, and by as much
 /// more after a frame was lost.
-void a_jump_is_not_believed(void**) {
+TEST(a_jump_is_not_believed) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       for (const int cycles : {1, 2, 3}) {
@@ -279,7 +279,7 @@ void a_jump_is_not_believed(void**) {
 
 /// The margin itself is believed, the next number is not: two values of one instant, which no speed
 /// explains. And without one that was ever believed there is nothing to jump from.
-void the_margin_is_a_sharp_edge(void**) {
+TEST(the_margin_is_a_sharp_edge) {
   for (const bool jumps : {false, true}) {
     Stroke stroke;
     assert_true(stroke.frame(0.0).faults.empty());
@@ -290,7 +290,7 @@ void the_margin_is_a_sharp_edge(void**) {
 }
 
 /// Back where it was: over, as if nothing had been.
-void a_jump_and_back_is_bridged(void**) {
+TEST(a_jump_and_back_is_bridged) {
   Stroke stroke = at_half(kBoom);
   for (int n = 0; n < 3; ++n) {
     assert_true(stroke.frame(0.75).degraded.has(Fault::kStrokeJump));
@@ -302,7 +302,7 @@ void a_jump_and_back_is_bridged(void**) {
 
 /// It stays: the last that was believed grows old, and the machine stops. Before that the jump is
 /// never taken for the truth.
-void a_jump_that_stays_stops(void**) {
+TEST(a_jump_that_stays_stops) {
   Stroke stroke = at_half(kBoom);
   for (int n = 1; n <= 4; ++n) {
     assert_int_equal(stroke.frame(0.75).fault, Fault::kNone);
@@ -319,7 +319,7 @@ void a_jump_that_stays_stops(void**) {
 }
 
 /// A sensor that dies after its jump, or jumps to no number, is missing at once.
-void a_jump_to_nothing_is_a_loss(void**) {
+TEST(a_jump_to_nothing_is_a_loss) {
   Stroke failing = at_half(kBoom);
   failing.frame(0.75);
   failing.newest = {0.75, Validity::kNotAvailable, failing.now_us};
@@ -335,7 +335,7 @@ void a_jump_to_nothing_is_a_loss(void**) {
 }
 
 /// A jump that is bridged excuses nothing else.
-void a_jump_hides_nothing(void**) {
+TEST(a_jump_hides_nothing) {
   const Stroke before = at_half(kBoom);
   ExcavatorInputs inputs = complete_inputs(before.now_us);
   inputs.axis[kBoom].stroke_m.value = 0.75;
@@ -347,7 +347,7 @@ void a_jump_hides_nothing(void**) {
 }
 
 /// Moved by hand, a stroke may be anywhere at any time.
-void outside_motion_nothing_jumps(void**) {
+TEST(outside_motion_nothing_jumps) {
   Stroke stroke = at_half(kBoom);
   assert_true(stroke.frame(1.0, !kMoving).faults.empty());
   assert_near(stroke.valid.drive[kBoom].stroke_m, 1.0, 0.0);
@@ -355,27 +355,4 @@ void outside_motion_nothing_jumps(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_lost_pressure_slows_and_its_load_is_unknown),
-      cmocka_unit_test(a_lost_engine_speed_slows_to_idle),
-      cmocka_unit_test(a_value_out_of_range_slows),
-      cmocka_unit_test(all_else_that_is_lost_stops),
-      cmocka_unit_test(the_first_that_stops_is_named),
-      cmocka_unit_test(only_an_active_bus_will_do),
-      cmocka_unit_test(one_dropped_command_is_borne),
-      cmocka_unit_test(faults_of_messages_stop),
-      cmocka_unit_test(a_sensors_own_error_is_named),
-      cmocka_unit_test(the_other_sensors_own_errors_are_named_too),
-      cmocka_unit_test(an_engine_too_fast_is_not_believed),
-      cmocka_unit_test(no_pump_gives_more_than_at_full_swash),
-      cmocka_unit_test(a_jump_is_not_believed),
-      cmocka_unit_test(the_margin_is_a_sharp_edge),
-      cmocka_unit_test(a_jump_and_back_is_bridged),
-      cmocka_unit_test(a_jump_that_stays_stops),
-      cmocka_unit_test(a_jump_to_nothing_is_a_loss),
-      cmocka_unit_test(a_jump_hides_nothing),
-      cmocka_unit_test(outside_motion_nothing_jumps),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

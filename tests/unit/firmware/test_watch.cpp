@@ -10,7 +10,7 @@ namespace {
 using namespace graben;
 using namespace graben::test;
 
-void a_machine_that_obeys_is_left_alone(void**) {
+TEST(a_machine_that_obeys_is_left_alone) {
   Machine machine;
   for (int n = 0; n < 200; ++n) {
     assert_well(machine.step());
@@ -20,7 +20,7 @@ void a_machine_that_obeys_is_left_alone(void**) {
   }
 }
 
-void spools_and_cylinders_stop(void**) {
+TEST(spools_and_cylinders_stop) {
   Machine stuck;
   stuck.run(20);
   stuck.inputs.drive[kArm].spool_ratio = 0.1875;  // Off, and yet within its deadband.
@@ -41,7 +41,7 @@ void spools_and_cylinders_stop(void**) {
   assert_stopped_by(Fault::kStrokeStuck, still.step());
 }
 
-void pressures_and_swash_slow(void**) {
+TEST(pressures_and_swash_slow) {
   Machine pressure;
   pressure.step();
   pressure.frozen = true;
@@ -70,7 +70,7 @@ void pressures_and_swash_slow(void**) {
 }
 
 /// What came in as a stop stays the first; the watches' own are added.
-void the_first_fault_stays_the_first(void**) {
+TEST(the_first_fault_stays_the_first) {
   Machine machine;
   machine.inputs.valve_enabled = false;
   machine.run(kEchoCycles - 1);
@@ -87,7 +87,7 @@ void the_first_fault_stays_the_first(void**) {
 
 /// With a fault that stops, the cylinders' watches begin afresh: no second fault from half of the
 /// truth.
-void a_stopped_machine_is_not_judged(void**) {
+TEST(a_stopped_machine_is_not_judged) {
   Machine machine;
   machine.run(20);
   machine.inputs.fault = Fault::kStrokeMissing;
@@ -112,7 +112,7 @@ struct Released : Machine {
   }
 };
 
-void a_spool_that_does_not_close_after_motion_is_stuck(void**) {
+TEST(a_spool_that_does_not_close_after_motion_is_stuck) {
   Released machine;
   assert_true(machine.stuck_after(30));
   assert_int_equal(machine.seen.fault, Fault::kSpoolStuck);
@@ -121,7 +121,7 @@ void a_spool_that_does_not_close_after_motion_is_stuck(void**) {
 }
 
 /// Once all have been in their middle, or manual mode says so, it is somebody's hand.
-void what_a_hand_opens_afterwards_is_not_stuck(void**) {
+TEST(what_a_hand_opens_afterwards_is_not_stuck) {
   Released closed;
   set_spools(closed.inputs, {0.0, 0.0, 0.0});
   closed.run(1);
@@ -133,7 +133,7 @@ void what_a_hand_opens_afterwards_is_not_stuck(void**) {
 }
 
 /// Neither spools that are not seen nor an operator who is not heard have closed or taken over.
-void what_is_not_known_does_not_end_the_closing(void**) {
+TEST(what_is_not_known_does_not_end_the_closing) {
   Released machine;
   machine.inputs.faults.add(Fault::kSpoolMissing);
   machine.inputs.faults.add(Fault::kOperatorMissing);
@@ -146,7 +146,7 @@ void what_is_not_known_does_not_end_the_closing(void**) {
 
 /// Outside motion people move it: spools, strokes, pressures, swash are theirs. The valve's echo is
 /// not.
-void not_in_motion_the_machine_is_the_operators(void**) {
+TEST(not_in_motion_the_machine_is_the_operators) {
   Machine machine;
   machine.cycle = {};
   machine.inputs.valve_enabled = false;
@@ -169,7 +169,7 @@ void not_in_motion_the_machine_is_the_operators(void**) {
 }
 
 /// Armed after that, every watch begins afresh, but for what was sent.
-void every_motion_begins_afresh(void**) {
+TEST(every_motion_begins_afresh) {
   Machine machine;
   machine.inputs.swash_ratio[0] = 0.0;
   machine.run(7);
@@ -187,7 +187,7 @@ void every_motion_begins_afresh(void**) {
 
 /// A value that comes and goes does not make the machine jerk: 0.5 s after it has come back the
 /// speed does.
-void what_degraded_goes_on_for_a_second(void**) {
+TEST(what_degraded_goes_on_for_a_second) {
   Machine machine;
   machine.step();
   for (int round = 0; round < 2; ++round) {
@@ -205,7 +205,7 @@ void what_degraded_goes_on_for_a_second(void**) {
 }
 
 /// Several at once are all named, until the last of them has been gone for as long.
-void all_that_degraded_is_named(void**) {
+TEST(all_that_degraded_is_named) {
   Machine machine;
   machine.inputs.degraded.add(Fault::kPressureMissing);
   machine.step();
@@ -221,7 +221,7 @@ void all_that_degraded_is_named(void**) {
 }
 
 /// The next motion does not begin slow for what the last one lost.
-void the_end_of_motion_ends_it(void**) {
+TEST(the_end_of_motion_ends_it) {
   Machine machine;
   machine.inputs.degraded.add(Fault::kPressureMissing);
   machine.step();
@@ -263,7 +263,7 @@ struct Pushing : Machine {
 };
 
 /// A rock is no stuck sensor: what strains need not move. At less pressure it must.
-void what_its_load_holds_is_not_stuck(void**) {
+TEST(what_its_load_holds_is_not_stuck) {
   Pushing rock(28e6);
   assert_false(rock.meets(Fault::kStrokeStuck, 1000));
   assert_int_equal(rock.state.drives.blocked[1].side, 1);
@@ -280,7 +280,7 @@ void what_its_load_holds_is_not_stuck(void**) {
 
 /// Thrown by its own oil against its spool, while it lets off; the same without a rock before it is
 /// a drive that goes the wrong way.
-void what_its_load_lets_go_is_not_the_wrong_way(void**) {
+TEST(what_its_load_lets_go_is_not_the_wrong_way) {
   for (const double before_pa : {31e6, 10e6}) {
     Pushing arm(before_pa);
     arm.bank.row[1].watch.wrong_m = 0.010;
@@ -301,23 +301,4 @@ void what_its_load_lets_go_is_not_the_wrong_way(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_machine_that_obeys_is_left_alone),
-      cmocka_unit_test(spools_and_cylinders_stop),
-      cmocka_unit_test(pressures_and_swash_slow),
-      cmocka_unit_test(the_first_fault_stays_the_first),
-      cmocka_unit_test(a_stopped_machine_is_not_judged),
-      cmocka_unit_test(a_spool_that_does_not_close_after_motion_is_stuck),
-      cmocka_unit_test(what_a_hand_opens_afterwards_is_not_stuck),
-      cmocka_unit_test(what_is_not_known_does_not_end_the_closing),
-      cmocka_unit_test(not_in_motion_the_machine_is_the_operators),
-      cmocka_unit_test(every_motion_begins_afresh),
-      cmocka_unit_test(what_degraded_goes_on_for_a_second),
-      cmocka_unit_test(all_that_degraded_is_named),
-      cmocka_unit_test(the_end_of_motion_ends_it),
-      cmocka_unit_test(what_its_load_holds_is_not_stuck),
-      cmocka_unit_test(what_its_load_lets_go_is_not_the_wrong_way),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -12,7 +12,7 @@ using namespace graben::test;
 
 /// What the valve's model says of a machine that nobody knows counts for nothing: neither while
 /// duties are tried nor until they have arrived; and pressures still do.
-void duties_that_are_tried_are_not_judged_by_the_model(void**) {
+TEST(duties_that_are_tried_are_not_judged_by_the_model) {
   for (const bool tried : {true, false}) {
     Machine machine;
     machine.run(20);
@@ -39,7 +39,7 @@ void duties_that_are_tried_are_not_judged_by_the_model(void**) {
 }
 
 /// What a sensor of unknown zero shows of an empty chamber is not stuck while duties are tried.
-void an_empty_chamber_slows_nobody_who_tries(void**) {
+TEST(an_empty_chamber_slows_nobody_who_tries) {
   Machine machine;
   machine.frozen = true;
   machine.cycle.tried = true;
@@ -61,7 +61,7 @@ void an_empty_chamber_slows_nobody_who_tries(void**) {
 }
 
 /// Its drives move for another reason than what was asked: nothing is learnt of the valve.
-void nothing_is_learnt_of_duties_that_are_tried(void**) {
+TEST(nothing_is_learnt_of_duties_that_are_tried) {
   for (const bool tried : {true, false}) {
     Machine machine;
     machine.cycle.tried = tried;
@@ -81,11 +81,4 @@ void nothing_is_learnt_of_duties_that_are_tried(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(duties_that_are_tried_are_not_judged_by_the_model),
-      cmocka_unit_test(an_empty_chamber_slows_nobody_who_tries),
-      cmocka_unit_test(nothing_is_learnt_of_duties_that_are_tried),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -46,7 +46,7 @@ struct Bus {
   }
 };
 
-void bits_lie_where_a_dbc_says(void**) {
+TEST(bits_lie_where_a_dbc_says) {
   // Bytes by hand: Intel from the lowest bit on, Motorola from the highest.
   const dbc::Payload data{0x12, 0x34, 0x56, 0x78, 0x9A, 0xBC, 0xDE, 0xF0};
   assert_int_equal(raw_of({0, 16, false, false}, data), 0x3412);
@@ -72,7 +72,7 @@ void bits_lie_where_a_dbc_says(void**) {
   assert_false(lies_within({0, 16, false, false}, 1));
 }
 
-void a_value_comes_with_its_scale_and_sign(void**) {
+TEST(a_value_comes_with_its_scale_and_sign) {
   Bus bus;
   bus.angle(0.3);
   assert_true(bus.inputs().joint_rad[0].validity == Validity::kValid);
@@ -82,7 +82,7 @@ void a_value_comes_with_its_scale_and_sign(void**) {
   assert_int_equal(bus.receiver.foreign(), 0);
 }
 
-void what_cannot_be_is_refused(void**) {
+TEST(what_cannot_be_is_refused) {
   Bus bus;
   bus.angle(0.3);
   bus.pass();
@@ -98,7 +98,7 @@ void what_cannot_be_is_refused(void**) {
   assert_int_equal(bus.receiver.table().out_of_range, 2);
 }
 
-void a_silent_source_is_missing_in_its_own_time(void**) {
+TEST(a_silent_source_is_missing_in_its_own_time) {
   Bus bus;
   bus.angle(0.3);
   for (int cycle = 0; cycle < 4; ++cycle) {
@@ -111,7 +111,7 @@ void a_silent_source_is_missing_in_its_own_time(void**) {
   assert_near(bus.inputs().joint_rad[0].value, -1.0, 2.1e-4);
 }
 
-void two_senders_are_an_error(void**) {
+TEST(two_senders_are_an_error) {
   Bus bus;
   bus.angle(0.3);
   for (int cycle = 0; cycle < 8; ++cycle) {
@@ -129,7 +129,7 @@ void two_senders_are_an_error(void**) {
   assert_true(worst == Validity::kError);
 }
 
-void another_bus_is_not_meant(void**) {
+TEST(another_bus_is_not_meant) {
   Bus bus;
   bus.angle(0.3, 1);
   assert_true(bus.inputs().joint_rad[0].validity == Validity::kNotReceived);
@@ -137,7 +137,7 @@ void another_bus_is_not_meant(void**) {
   assert_true(bus.inputs().joint_rad[0].validity == Validity::kValid);
 }
 
-void a_counter_that_stands_still_is_no_news(void**) {
+TEST(a_counter_that_stands_still_is_no_news) {
   Bus bus;
   bus.state(false);  // Only says where it counts from.
   bus.pass(5 * kPeriod);
@@ -158,7 +158,7 @@ void a_counter_that_stands_still_is_no_news(void**) {
   assert_int_equal(bus.receiver.table().wrong_counter, 4);
 }
 
-void a_slow_source_holds_up_to_its_time_out(void**) {
+TEST(a_slow_source_holds_up_to_its_time_out) {
   Bus bus;
   bus.state(false);
   bus.pass(5 * kPeriod);
@@ -173,7 +173,7 @@ void a_slow_source_holds_up_to_its_time_out(void**) {
   assert_true(bus.inputs().valve_enabled.validity == Validity::kNotAvailable);
 }
 
-void a_condition_that_fails_says_disabled(void**) {
+TEST(a_condition_that_fails_says_disabled) {
   Bus bus;
   bus.state(false);
   bus.pass(5 * kPeriod);
@@ -183,7 +183,7 @@ void a_condition_that_fails_says_disabled(void**) {
   assert_false(bus.inputs().valve_enabled.value);
 }
 
-void the_machines_own_frames_of_ours_are_foreign(void**) {
+TEST(the_machines_own_frames_of_ours_are_foreign) {
   Bus bus;
   const CanFrame speed{dbc::common::EEC1::kId,      true, false, false, false, 8,
                        dbc::common::EEC1{}.encode()};
@@ -192,7 +192,7 @@ void the_machines_own_frames_of_ours_are_foreign(void**) {
 }
 
 /// Our own messages as rows of a table: what the generated code takes and refuses, in every frame.
-void our_own_bus_as_a_table_is_the_same(void**) {
+TEST(our_own_bus_as_a_table_is_the_same) {
   using Stroke = dbc::excavator::BoomStroke;
   BusTable made;
   made.own_frames = true;
@@ -259,7 +259,7 @@ void our_own_bus_as_a_table_is_the_same(void**) {
   assert_true(valid > 1000 && states > 20);
 }
 
-void our_commands_from_another_are_a_second_controller(void**) {
+TEST(our_commands_from_another_are_a_second_controller) {
   Bus bus;
   CanFrame frame;
   frame.id = kLevers;
@@ -270,20 +270,4 @@ void our_commands_from_another_are_a_second_controller(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(bits_lie_where_a_dbc_says),
-      cmocka_unit_test(a_value_comes_with_its_scale_and_sign),
-      cmocka_unit_test(what_cannot_be_is_refused),
-      cmocka_unit_test(a_silent_source_is_missing_in_its_own_time),
-      cmocka_unit_test(two_senders_are_an_error),
-      cmocka_unit_test(another_bus_is_not_meant),
-      cmocka_unit_test(a_counter_that_stands_still_is_no_news),
-      cmocka_unit_test(a_slow_source_holds_up_to_its_time_out),
-      cmocka_unit_test(a_condition_that_fails_says_disabled),
-      cmocka_unit_test(the_machines_own_frames_of_ours_are_foreign),
-      cmocka_unit_test(our_own_bus_as_a_table_is_the_same),
-      cmocka_unit_test(our_commands_from_another_are_a_second_controller),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -57,7 +57,7 @@ struct Bus {
 };
 
 /// EAO series 09 keypad manual, boot-up sequence: 70B 00, 70B 7F, 000 01 0B, 70B 05.
-void a_node_is_started_as_printed(void**) {
+TEST(a_node_is_started_as_printed) {
   Bus bus;
   bus.says(0x00);
   bus.pass();
@@ -82,7 +82,7 @@ void a_node_is_started_as_printed(void**) {
   assert_int_equal(bus.receiver.take_start(bus.now).id, 0);
 }
 
-void a_node_that_sleeps_on_is_told_again(void**) {
+TEST(a_node_that_sleeps_on_is_told_again) {
   Bus bus;
   int told = 0;
   for (int cycle = 0; cycle < 40; ++cycle) {
@@ -98,7 +98,7 @@ void a_node_that_sleeps_on_is_told_again(void**) {
   assert_int_equal(bus.receiver.take_start(bus.now).id, 0);
 }
 
-void only_an_operational_nodes_values_count(void**) {
+TEST(only_an_operational_nodes_values_count) {
   Bus bus;
   bus.position();
   bus.pass();
@@ -114,7 +114,7 @@ void only_an_operational_nodes_values_count(void**) {
   assert_near(bus.stroke().value, 0.3, 1e-12);
 }
 
-void a_node_that_reboots_is_no_source(void**) {
+TEST(a_node_that_reboots_is_no_source) {
   for (const std::uint8_t state : {std::uint8_t{0x00}, std::uint8_t{0x7F}, std::uint8_t{0x04}}) {
     Bus bus;
     bus.says(0x05);
@@ -132,7 +132,7 @@ void a_node_that_reboots_is_no_source(void**) {
   }
 }
 
-void a_heartbeat_that_is_lost(void**) {
+TEST(a_heartbeat_that_is_lost) {
   Bus bus;
   bus.says(0x05);
   for (int cycle = 0; cycle <= 25; ++cycle) {
@@ -146,7 +146,7 @@ void a_heartbeat_that_is_lost(void**) {
 }
 
 /// CiA 301: bytes 0 and 1 the code, 2 the error register. Its values go on, and do not count.
-void an_emergency_makes_values_errors(void**) {
+TEST(an_emergency_makes_values_errors) {
   Bus bus;
   bus.says(0x05);
   bus.position();
@@ -168,7 +168,7 @@ void an_emergency_makes_values_errors(void**) {
   assert_int_equal(bus.receiver.emergency().id, 0);
 }
 
-void a_node_that_boots_tells_its_emergency_anew(void**) {
+TEST(a_node_that_boots_tells_its_emergency_anew) {
   Bus bus;
   bus.says(0x05);
   bus.take(0x080 + kNode, 8, {0x00, 0x10, 0x01});
@@ -178,7 +178,7 @@ void a_node_that_boots_tells_its_emergency_anew(void**) {
   assert_int_equal(bus.receiver.emergency().code, 0);
 }
 
-void what_is_no_emergency(void**) {
+TEST(what_is_no_emergency) {
   Bus bus;
   bus.says(0x05);
   bus.take(0x080 + kNode, 8, {0x10, 0x50, 0x01}, 0);  // On the other bus.
@@ -191,7 +191,7 @@ void what_is_no_emergency(void**) {
   assert_int_equal(bus.receiver.emergency().id, 0);
 }
 
-void what_is_no_heartbeat(void**) {
+TEST(what_is_no_heartbeat) {
   Bus bus;
   bus.says(0x05, 0);  // On the other bus.
   bus.take(0x700 + kNode, 2, {0x05});
@@ -203,7 +203,7 @@ void what_is_no_heartbeat(void**) {
   assert_int_equal(bus.receiver.take_start(bus.now).id, 0);
 }
 
-void a_port_lets_heartbeats_and_emergencies_through(void**) {
+TEST(a_port_lets_heartbeats_and_emergencies_through) {
   const BusTable made = encoder();
   int found = 0;
   for (const std::uint32_t id : table_ids(made)) {
@@ -214,18 +214,4 @@ void a_port_lets_heartbeats_and_emergencies_through(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_node_is_started_as_printed),
-      cmocka_unit_test(a_node_that_sleeps_on_is_told_again),
-      cmocka_unit_test(only_an_operational_nodes_values_count),
-      cmocka_unit_test(a_node_that_reboots_is_no_source),
-      cmocka_unit_test(a_heartbeat_that_is_lost),
-      cmocka_unit_test(what_is_no_heartbeat),
-      cmocka_unit_test(a_port_lets_heartbeats_and_emergencies_through),
-      cmocka_unit_test(an_emergency_makes_values_errors),
-      cmocka_unit_test(a_node_that_boots_tells_its_emergency_anew),
-      cmocka_unit_test(what_is_no_emergency),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -44,7 +44,7 @@ struct Bus {
   }
 };
 
-void nobody_heard_is_not_late(void**) {
+TEST(nobody_heard_is_not_late) {
   Bus bus;
   assert_false(bus.challenge.is_late(false));
   bus.ask();
@@ -55,7 +55,7 @@ void nobody_heard_is_not_late(void**) {
   }
 }
 
-void each_station_has_to_answer_once(void**) {
+TEST(each_station_has_to_answer_once) {
   Bus bus;
   Bus::say(bus.echoes.driver, 0, bus.now);
   bus.cycle();
@@ -72,7 +72,7 @@ void each_station_has_to_answer_once(void**) {
 }
 
 // 60 ms and a cycle of the sender's: 20 ms of the operator's, 10 ms of the machine's.
-void the_answer_has_its_time(void**) {
+TEST(the_answer_has_its_time) {
   for (int cycles = 1; cycles <= 12; ++cycles) {
     Bus driver;
     driver.ask_and_answer(cycles, 1);
@@ -84,7 +84,7 @@ void the_answer_has_its_time(void**) {
 }
 
 // Said in the cycle in which the time ends, not in the one after it.
-void an_answer_is_missed_when_its_time_is_over(void**) {
+TEST(an_answer_is_missed_when_its_time_is_over) {
   Bus bus;
   bus.ask_and_answer(1, 1);
   const TimeUs sent_us = bus.now;
@@ -103,7 +103,7 @@ void an_answer_is_missed_when_its_time_is_over(void**) {
   assert_true(driver.challenge.is_late(false));
 }
 
-void only_the_last_stamp_said_as_valid_is_an_answer(void**) {
+TEST(only_the_last_stamp_said_as_valid_is_an_answer) {
   const auto late_after = [](int off, Validity validity) {
     Bus bus;
     const std::uint32_t stamp = bus.ask();
@@ -120,7 +120,7 @@ void only_the_last_stamp_said_as_valid_is_an_answer(void**) {
   assert_true(late_after(0, Validity::kOutOfRange));
 }
 
-void two_in_a_row_count_in_motion(void**) {
+TEST(two_in_a_row_count_in_motion) {
   Bus bus;
   bus.ask_and_answer(1, 1);
   for (int i = 0; i < 2; ++i) {
@@ -138,7 +138,7 @@ void two_in_a_row_count_in_motion(void**) {
 }
 
 // A cycle of ours that comes too late to tell, though the frame is there.
-void a_frame_that_is_read_too_late_is_late(void**) {
+TEST(a_frame_that_is_read_too_late_is_late) {
   Bus bus;
   const std::uint32_t stamp = bus.ask();
   bus.now += 90'000;
@@ -156,7 +156,7 @@ void a_frame_that_is_read_too_late_is_late(void**) {
 }
 
 // As long as nothing is heard of a station it is missing, not late; and late when it is back.
-void a_silent_station_is_missing(void**) {
+TEST(a_silent_station_is_missing) {
   Bus bus;
   bus.ask_and_answer(1, 1, 10);
   Bus::say(bus.echoes.driver, 0, bus.now);
@@ -178,7 +178,7 @@ void a_silent_station_is_missing(void**) {
   assert_true(bus.challenge.is_late(false));
 }
 
-void a_station_that_cannot_answer_is_not_checked_and_said(void**) {
+TEST(a_station_that_cannot_answer_is_not_checked_and_said) {
   for (const bool driver : {true, false}) {
     Bus bus;
     bus.ask();
@@ -196,7 +196,7 @@ void a_station_that_cannot_answer_is_not_checked_and_said(void**) {
   }
 }
 
-void stamps_go_round_without_0(void**) {
+TEST(stamps_go_round_without_0) {
   Challenge challenge;
   for (int i = 1; i <= 64255; ++i) {
     assert_int_equal(challenge.next_stamp(), i);
@@ -207,18 +207,4 @@ void stamps_go_round_without_0(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(nobody_heard_is_not_late),
-      cmocka_unit_test(each_station_has_to_answer_once),
-      cmocka_unit_test(the_answer_has_its_time),
-      cmocka_unit_test(an_answer_is_missed_when_its_time_is_over),
-      cmocka_unit_test(only_the_last_stamp_said_as_valid_is_an_answer),
-      cmocka_unit_test(two_in_a_row_count_in_motion),
-      cmocka_unit_test(a_frame_that_is_read_too_late_is_late),
-      cmocka_unit_test(a_silent_station_is_missing),
-      cmocka_unit_test(a_station_that_cannot_answer_is_not_checked_and_said),
-      cmocka_unit_test(stamps_go_round_without_0),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -53,7 +53,7 @@ struct Bus {
   }
 };
 
-void nothing_is_said_once_a_second(void**) {
+TEST(nothing_is_said_once_a_second) {
   Bus bus;
   bus.expect({}, 1, 0);
   assert_false(bus.content.red_stop || bus.content.amber_warning);
@@ -63,7 +63,7 @@ void nothing_is_said_once_a_second(void**) {
   bus.expect({}, 100, 0);
 }
 
-void a_new_fault_is_said_at_once(void**) {
+TEST(a_new_fault_is_said_at_once) {
   Bus bus;
   bus.expect({}, 1, 0);
   bus.now += 20 * kCallUs;
@@ -77,7 +77,7 @@ void a_new_fault_is_said_at_once(void**) {
   bus.expect({}, 100, 0);
 }
 
-void a_fault_from_the_start_is_said_once(void**) {
+TEST(a_fault_from_the_start_is_said_once) {
   Bus bus;
   bus.now = 10 * kSecondUs;
   const FaultSet active = set_of({Fault::kBusOff});
@@ -85,7 +85,7 @@ void a_fault_from_the_start_is_said_once(void**) {
   bus.expect(active, 100, spn_of(Fault::kBusOff));
 }
 
-void several_new_faults_come_one_in_each_call(void**) {
+TEST(several_new_faults_come_one_in_each_call) {
   Bus bus;
   bus.expect({}, 1, 0);
   const FaultSet active = set_of({Fault::kStrokeMissing, Fault::kSpoolStuck, Fault::kSensorError});
@@ -100,7 +100,7 @@ void several_new_faults_come_one_in_each_call(void**) {
 }
 
 // Up to ten are each on the bus within a second; more of them take 100 ms each.
-void each_has_its_turn(void**) {
+TEST(each_has_its_turn) {
   const int period_calls[] = {100, 100, 50, 33, 25, 20, 16, 14, 12, 11, 10, 10, 10};
   for (int count = 1; count <= 12; ++count) {
     Bus bus;
@@ -125,7 +125,7 @@ void each_has_its_turn(void**) {
 }
 
 /// Whenever some of them go, each of the rest is said within a second of its last time.
-void faults_that_go_do_not_hold_up_the_rest(void**) {
+TEST(faults_that_go_do_not_hold_up_the_rest) {
   for (int count = 2; count <= 10; ++count) {
     for (int gone_at = 100; gone_at < 200; ++gone_at) {
       Bus bus;
@@ -146,7 +146,7 @@ void faults_that_go_do_not_hold_up_the_rest(void**) {
 }
 
 /// However many there are, none is left out.
-void more_than_ten_all_come_again(void**) {
+TEST(more_than_ten_all_come_again) {
   for (const int count : {11, 12, 15, 20}) {
     Bus bus;
     const FaultSet active = first_faults(count);
@@ -163,7 +163,7 @@ void more_than_ten_all_come_again(void**) {
   }
 }
 
-void lamps_are_of_all_active(void**) {
+TEST(lamps_are_of_all_active) {
   for (int code = 1; code < kFaultCount; ++code) {
     const auto fault = static_cast<Fault>(code);
     Bus bus;
@@ -180,7 +180,7 @@ void lamps_are_of_all_active(void**) {
 
 // A fault that comes and goes with every call is on the bus once a second beside its turns, and its
 // appearances are counted up to 126.
-void a_flickering_fault_does_not_flood(void**) {
+TEST(a_flickering_fault_does_not_flood) {
   Bus bus;
   const FaultSet active = set_of({Fault::kBusPassive});
   int frames = 0;
@@ -194,7 +194,7 @@ void a_flickering_fault_does_not_flood(void**) {
   assert_int_equal(bus.content.occurrences, 126);
 }
 
-void occurrences_are_counted_for_each(void**) {
+TEST(occurrences_are_counted_for_each) {
   Bus bus;
   for (int times = 1; times <= 3; ++times) {
     bus.expect(set_of({Fault::kBusOff}), 1, spn_of(Fault::kBusOff));
@@ -208,7 +208,7 @@ void occurrences_are_counted_for_each(void**) {
 }
 
 // A call may be up to 5 ms early.
-void jitter_keeps_the_period(void**) {
+TEST(jitter_keeps_the_period) {
   Bus bus;
   bus.expect({}, 1, 0);
   bus.now = kSecondUs - 5001;
@@ -218,7 +218,7 @@ void jitter_keeps_the_period(void**) {
 }
 
 // A fault that was on the bus less than a second ago waits for its turn.
-void a_fault_that_comes_back_soon_waits(void**) {
+TEST(a_fault_that_comes_back_soon_waits) {
   for (const bool soon : {true, false}) {
     Bus bus;
     bus.expect({}, 1, 0);
@@ -231,7 +231,7 @@ void a_fault_that_comes_back_soon_waits(void**) {
   }
 }
 
-void a_clock_that_goes_back_does_not_silence(void**) {
+TEST(a_clock_that_goes_back_does_not_silence) {
   Bus bus;
   bus.now = 10 * kSecondUs;
   bus.expect(set_of({Fault::kBusOff}), 1, spn_of(Fault::kBusOff));
@@ -241,21 +241,4 @@ void a_clock_that_goes_back_does_not_silence(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(nothing_is_said_once_a_second),
-      cmocka_unit_test(a_new_fault_is_said_at_once),
-      cmocka_unit_test(a_fault_from_the_start_is_said_once),
-      cmocka_unit_test(several_new_faults_come_one_in_each_call),
-      cmocka_unit_test(each_has_its_turn),
-      cmocka_unit_test(faults_that_go_do_not_hold_up_the_rest),
-      cmocka_unit_test(more_than_ten_all_come_again),
-      cmocka_unit_test(lamps_are_of_all_active),
-      cmocka_unit_test(a_flickering_fault_does_not_flood),
-      cmocka_unit_test(occurrences_are_counted_for_each),
-      cmocka_unit_test(jitter_keeps_the_period),
-      cmocka_unit_test(a_fault_that_comes_back_soon_waits),
-      cmocka_unit_test(a_clock_that_goes_back_does_not_silence),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -15,7 +15,7 @@ using DozerFeed = Feed<DozerReceiver>;
 
 constexpr Physical valid(double value) { return {value, RawState::kValid}; }
 
-void blade(void**) {
+TEST(blade) {
   DozerFeed feed;
   const TimeUs stroke_us = feed.send(bus::BladeStroke{valid(0.31)});
   const TimeUs valve_us =
@@ -26,7 +26,7 @@ void blade(void**) {
   assert_signal(in.valve_enabled, 1.0, valve_us);
 }
 
-void body(void**) {
+TEST(body) {
   DozerFeed feed;
   const TimeUs position_us = feed.send(bus::BodyPosition{valid(-1234.5678), valid(-0.35)});
   const TimeUs pitch_us = feed.send(bus::BodyPitch{valid(-0.12), valid(0.34)});
@@ -40,7 +40,7 @@ void body(void**) {
   assert_signal(in.climb_mps, -0.2, velocity_us);
 }
 
-void tracks(void**) {
+TEST(tracks) {
   DozerFeed feed;
   const TimeUs left_us = feed.send(bus::LeftTransmission{valid(0.5), valid(0.75), valid(20e6)});
   const TimeUs right_us = feed.send(bus::RightTransmission{valid(-0.25), valid(0.35), valid(5e6)});
@@ -59,7 +59,7 @@ void tracks(void**) {
   assert_int_equal(rejected(feed.receiver.total()), 0);
 }
 
-void operator_and_identity(void**) {
+TEST(operator_and_identity) {
   DozerFeed feed;
   bus::OperatorCommand command;
   command.enable.value = bus::OperatorCommand::Enable::kOn;
@@ -79,7 +79,7 @@ void operator_and_identity(void**) {
 }
 
 // 32 bits have special values too, by their top byte.
-void one_signal_is_lost_the_other_stays(void**) {
+TEST(one_signal_is_lost_the_other_stays) {
   DozerReceiver receiver;
   TimeUs now = synchronise<bus::BodyPosition>(receiver);
   const BodyInputs& in = receiver.inputs().body;
@@ -100,7 +100,7 @@ void one_signal_is_lost_the_other_stays(void**) {
 }
 
 // Dig is an excavator's: the frame is refused, and the controller hears of it.
-void another_kinds_task_is_out_of_range(void**) {
+TEST(another_kinds_task_is_out_of_range) {
   DozerReceiver receiver;
   const TimeUs now = synchronise<test::DozerCommand>(receiver);
   assert_int_equal(receiver.inputs().driver.task.value, Task::kGrade);
@@ -115,14 +115,4 @@ void another_kinds_task_is_out_of_range(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(blade),
-      cmocka_unit_test(body),
-      cmocka_unit_test(tracks),
-      cmocka_unit_test(operator_and_identity),
-      cmocka_unit_test(one_signal_is_lost_the_other_stays),
-      cmocka_unit_test(another_kinds_task_is_out_of_range),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

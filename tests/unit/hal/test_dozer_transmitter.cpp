@@ -12,7 +12,7 @@ namespace bus = dbc::dozer;
 using dbc::RawState;
 using DozerSender = Sender<DozerTransmitter>;
 
-void periods(void**) {
+TEST(periods) {
   for (const TimeUs jitter_us : {0, 4000}) {
     const auto tally =
         sent_in_10_s<DozerTransmitter, bus::SpoolCommand, bus::PumpDisplacementCommand,
@@ -24,13 +24,13 @@ void periods(void**) {
   }
 }
 
-void protection(void**) {
+TEST(protection) {
   check_protection<DozerTransmitter, bus::SpoolCommand>();
   check_protection<DozerTransmitter, bus::PumpDisplacementCommand>();
   check_protection<DozerTransmitter, bus::MotorDisplacementCommand>();
 }
 
-void pilot_cut(void**) { check_pilot_cut<DozerTransmitter, bus::SpoolCommand>(); }
+TEST(pilot_cut) { check_pilot_cut<DozerTransmitter, bus::SpoolCommand>(); }
 
 // All that is commanded, as it is on the bus.
 struct Commanded {
@@ -75,7 +75,7 @@ void move(DozerOutputs& outputs) {
   outputs.motor_ratio = {0.35, 0.8};
 }
 
-void commands(void**) {
+TEST(commands) {
   DozerSender sender;
   sender.call(kStartUs);
   assert_commands(sender, kNeutral);
@@ -96,7 +96,7 @@ void commands(void**) {
   assert_commands(sender, kNeutral);
 }
 
-void a_number_that_is_not_finite_stops_all(void**) {
+TEST(a_number_that_is_not_finite_stops_all) {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     for (int which = 0; which < 5; ++which) {
       DozerSender sender;
@@ -113,7 +113,7 @@ void a_number_that_is_not_finite_stops_all(void**) {
 }
 
 // The brake is as it is asked for, whatever else is.
-void brake(void**) {
+TEST(brake) {
   for (const bool enable : {false, true}) {
     for (const bool wanted : {false, true}) {
       for (const double pump_ratio : {0.5, kNan}) {
@@ -131,7 +131,7 @@ void brake(void**) {
   }
 }
 
-void motion_and_grade(void**) {
+TEST(motion_and_grade) {
   DozerSender sender;
   DozerStatus& out = sender.outputs.status;
   out.limit = {LimitKind::kTransmissionFlow, 1};
@@ -168,15 +168,4 @@ void motion_and_grade(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(periods),
-      cmocka_unit_test(protection),
-      cmocka_unit_test(pilot_cut),
-      cmocka_unit_test(commands),
-      cmocka_unit_test(a_number_that_is_not_finite_stops_all),
-      cmocka_unit_test(brake),
-      cmocka_unit_test(motion_and_grade),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -10,14 +10,14 @@ namespace {
 using namespace graben;
 using namespace graben::test;
 
-void crc_check_values(void**) {
+TEST(crc_check_values) {
   const std::uint8_t digits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
   assert_int_equal(crc8(0xFF, digits, sizeof digits) ^ 0xFF, 0x4B);  // CRC-8 SAE J1850
   assert_int_equal(frame(0)[0], 0xCC);                               // AUTOSAR profile 11, BOTH
   assert_int_equal(frame(1)[0], 0x91);
 }
 
-void protect_keeps_data(void**) {
+TEST(protect_keeps_data) {
   E2ePayload payload{0xFF, 0xCF, 1, 2, 3, 4, 5, 6};
   e2e_protect(payload, kDataId, 14);
   const E2ePayload expected{payload[0], 0xCE, 1, 2, 3, 4, 5, 6};
@@ -25,7 +25,7 @@ void protect_keeps_data(void**) {
 }
 
 // Hamming distance: no error of one or two bits passes.
-void every_bit_is_covered(void**) {
+TEST(every_bit_is_covered) {
   const E2ePayload good = frame(7);
   for (unsigned first = 0; first < 64; ++first) {
     for (unsigned second = first; second < 64; ++second) {
@@ -40,7 +40,7 @@ void every_bit_is_covered(void**) {
   }
 }
 
-void data_id_is_covered(void**) {
+TEST(data_id_is_covered) {
   for (unsigned bit = 0; bit < 16; ++bit) {
     E2ePayload masquerading{};
     e2e_protect(masquerading, static_cast<std::uint16_t>(kDataId ^ (1U << bit)), 7);
@@ -49,14 +49,14 @@ void data_id_is_covered(void**) {
   }
 }
 
-void two_results_of_nine_are_accepted(void**) {
+TEST(two_results_of_nine_are_accepted) {
   for (int result = 0; result <= static_cast<int>(E2eCheck::kTooMany); ++result) {
     const auto check = static_cast<E2eCheck>(result);
     assert_int_equal(e2e_accepted(check), check == E2eCheck::kOk || check == E2eCheck::kSomeLost);
   }
 }
 
-void third_good_frame_is_the_first_accepted(void**) {
+TEST(third_good_frame_is_the_first_accepted) {
   for (std::uint8_t start = 0; start < 15; ++start) {
     Link link;
     assert_false(link.state.synchronised);
@@ -74,7 +74,7 @@ void third_good_frame_is_the_first_accepted(void**) {
   }
 }
 
-void wrong_crc_breaks_the_run_of_synchronisation(void**) {
+TEST(wrong_crc_breaks_the_run_of_synchronisation) {
   E2ePayload bad = frame(2);
   bad[5] = 1;
   Link link;
@@ -86,7 +86,7 @@ void wrong_crc_breaks_the_run_of_synchronisation(void**) {
   assert_int_equal(link.take(5), E2eCheck::kOk);
 }
 
-void synchronising_restarts(void**) {
+TEST(synchronising_restarts) {
   Link repeated;
   (void)repeated.take(0);
   (void)repeated.take(1);
@@ -113,7 +113,7 @@ void synchronising_restarts(void**) {
   assert_int_equal(invalid.take(4), E2eCheck::kOk);
 }
 
-void synchronised_by_delta(void**) {
+TEST(synchronised_by_delta) {
   for (unsigned delta = 0; delta < 15; ++delta) {
     for (std::uint8_t last = 0; last < 15; ++last) {
       Link link = synchronised_at(last);
@@ -129,7 +129,7 @@ void synchronised_by_delta(void**) {
   }
 }
 
-void a_late_frame_changes_nothing(void**) {
+TEST(a_late_frame_changes_nothing) {
   for (const unsigned delta : {13U, 14U}) {
     for (std::uint8_t last = 0; last < 15; ++last) {
       Link link = synchronised_at(last);
@@ -156,14 +156,14 @@ void a_late_frame_changes_nothing(void**) {
   assert_int_equal(starting.take(5), E2eCheck::kSynchronising);
 }
 
-void a_pair_out_of_order_costs_one_frame(void**) {
+TEST(a_pair_out_of_order_costs_one_frame) {
   Link link = synchronised_at(5);
   assert_int_equal(link.take(7), E2eCheck::kSomeLost);
   assert_int_equal(link.take(6), E2eCheck::kWrongSequence);
   assert_int_equal(link.take(8), E2eCheck::kOk);
 }
 
-void the_same_counter_with_other_data_is_a_conflict(void**) {
+TEST(the_same_counter_with_other_data_is_a_conflict) {
   Link link = synchronised_at(5);
   const E2eState before = link.state;
   assert_int_equal(link.take(other_frame(5)), E2eCheck::kConflict);
@@ -202,7 +202,7 @@ void the_same_counter_with_other_data_is_a_conflict(void**) {
 }
 
 // Changes of one byte take the CRC through all its values, above and below the last one's.
-void every_other_crc_is_a_conflict(void**) {
+TEST(every_other_crc_is_a_conflict) {
   for (unsigned data = 1; data < 256; ++data) {
     Link link = synchronised_at(5);
     E2ePayload other{0, 0, static_cast<std::uint8_t>(data)};
@@ -212,7 +212,7 @@ void every_other_crc_is_a_conflict(void**) {
 }
 
 // Frames cannot come faster than they are sent, but together after a pause.
-void more_frames_than_cycles_are_too_many(void**) {
+TEST(more_frames_than_cycles_are_too_many) {
   const int allowed[] = {1, 2, 3, 4, 6};  // after 0 .. 4 cycles; a frame counts 4/5 of a cycle
   for (int cycles = 0; cycles < 5; ++cycles) {
     Link link = synchronised_at(5);
@@ -250,7 +250,7 @@ void more_frames_than_cycles_are_too_many(void**) {
 }
 
 // What came before its cycle was over does not bring the next one's time forward.
-void a_frame_has_its_time(void**) {
+TEST(a_frame_has_its_time) {
   Link link = synchronised_at(5);
   const TimeUs next_us = link.now + kCycleUs * 4 / 5;
   assert_int_equal(e2e_check(kConfig, link.state, frame(6), link.now + kMillisecondUs),
@@ -260,7 +260,7 @@ void a_frame_has_its_time(void**) {
 }
 
 // A sender whose clock is 10 % fast, frames taken every 10 ms, never comes too early for long.
-void a_fast_sender_is_followed(void**) {
+TEST(a_fast_sender_is_followed) {
   Link link = synchronised_at(14);
   std::uint8_t counter = 0;
   TimeUs sent_us = link.now + 9 * kMillisecondUs;
@@ -273,7 +273,7 @@ void a_fast_sender_is_followed(void**) {
   }
 }
 
-void after_a_wrong_sequence_three_are_needed(void**) {
+TEST(after_a_wrong_sequence_three_are_needed) {
   Link link = synchronised_at(2);
   assert_int_equal(link.take(9), E2eCheck::kWrongSequence);  // the first of three
   assert_int_equal(link.take(10), E2eCheck::kSynchronising);
@@ -286,7 +286,7 @@ void after_a_wrong_sequence_three_are_needed(void**) {
   assert_int_equal(invalid.take(5), E2eCheck::kOk);
 }
 
-void wrong_crc_keeps_synchronisation(void**) {
+TEST(wrong_crc_keeps_synchronisation) {
   Link link = synchronised_at(2);
   E2ePayload bad = frame(3);
   bad[0] ^= 1;
@@ -295,7 +295,7 @@ void wrong_crc_keeps_synchronisation(void**) {
   assert_int_equal(link.take(4), E2eCheck::kSomeLost);
 }
 
-void silence_needs_three(void**) {
+TEST(silence_needs_three) {
   Link just_in_time = synchronised_at(2);
   just_in_time.wait(3 * kCycleUs);  // and one more until the frame: the limit itself
   assert_int_equal(e2e_status(kConfig, just_in_time.state, just_in_time.now), E2eCheck::kOk);
@@ -319,14 +319,14 @@ void silence_needs_three(void**) {
   assert_int_equal(halting.take(4), E2eCheck::kOk);
 }
 
-void bad_frames_alone_are_no_data(void**) {
+TEST(bad_frames_alone_are_no_data) {
   Link link;
   link.now = -kCycleUs;  // time 0 must not count as a good frame's
   assert_int_equal(link.take(E2ePayload{1}), E2eCheck::kWrongCrc);
   assert_int_equal(e2e_status(kConfig, link.state, link.now), E2eCheck::kNoNewData);
 }
 
-void frozen_counter_is_silence(void**) {
+TEST(frozen_counter_is_silence) {
   Link link = synchronised_at(2);
   for (int i = 0; i < 4; ++i) {
     assert_int_equal(link.take(2), E2eCheck::kRepeated);
@@ -337,7 +337,7 @@ void frozen_counter_is_silence(void**) {
   }
 }
 
-void clock_that_runs_back_is_no_silence(void**) {
+TEST(clock_that_runs_back_is_no_silence) {
   Link link = synchronised_at(2);
   link.wait(-1'000'000);
   assert_int_equal(link.take(3), E2eCheck::kOk);
@@ -345,7 +345,7 @@ void clock_that_runs_back_is_no_silence(void**) {
   assert_int_equal(link.take(4), E2eCheck::kOk);
 }
 
-void crc_fits_its_own_data_id(void**) {
+TEST(crc_fits_its_own_data_id) {
   assert_true(e2e_crc_fits(frame(3), kDataId));
   assert_false(e2e_crc_fits(frame(3), kDataId + 1));
   assert_int_equal(frame(0)[0], 0xCC);
@@ -355,31 +355,4 @@ void crc_fits_its_own_data_id(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(crc_check_values),
-      cmocka_unit_test(protect_keeps_data),
-      cmocka_unit_test(every_bit_is_covered),
-      cmocka_unit_test(data_id_is_covered),
-      cmocka_unit_test(two_results_of_nine_are_accepted),
-      cmocka_unit_test(third_good_frame_is_the_first_accepted),
-      cmocka_unit_test(wrong_crc_breaks_the_run_of_synchronisation),
-      cmocka_unit_test(synchronising_restarts),
-      cmocka_unit_test(synchronised_by_delta),
-      cmocka_unit_test(a_late_frame_changes_nothing),
-      cmocka_unit_test(a_pair_out_of_order_costs_one_frame),
-      cmocka_unit_test(the_same_counter_with_other_data_is_a_conflict),
-      cmocka_unit_test(every_other_crc_is_a_conflict),
-      cmocka_unit_test(more_frames_than_cycles_are_too_many),
-      cmocka_unit_test(a_frame_has_its_time),
-      cmocka_unit_test(a_fast_sender_is_followed),
-      cmocka_unit_test(crc_fits_its_own_data_id),
-      cmocka_unit_test(after_a_wrong_sequence_three_are_needed),
-      cmocka_unit_test(wrong_crc_keeps_synchronisation),
-      cmocka_unit_test(silence_needs_three),
-      cmocka_unit_test(bad_frames_alone_are_no_data),
-      cmocka_unit_test(frozen_counter_is_silence),
-      cmocka_unit_test(clock_that_runs_back_is_no_silence),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -70,7 +70,7 @@ Outcome play(const Replay& replay) {
 }
 
 // Every offset, every length, all at once and interleaved, before and after the live frame.
-void a_replayed_block_is_used_twice_at_most(void**) {
+TEST(a_replayed_block_is_used_twice_at_most) {
   for (unsigned offset = 0; offset < 15; ++offset) {
     Outcome burst;
     Outcome interleaved;
@@ -96,9 +96,4 @@ void a_replayed_block_is_used_twice_at_most(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_replayed_block_is_used_twice_at_most),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -35,7 +35,7 @@ constexpr Kind kKinds[] = {{E2eMark::kSequence, Fault::kMessageSequence},
                            {E2eMark::kCorrupt, Fault::kMessageCorrupt},
                            {E2eMark::kMasquerade, Fault::kMessageMasquerade}};
 
-void three_of_a_kind_are_a_fault(void**) {
+TEST(three_of_a_kind_are_a_fault) {
   for (const Kind& kind : kKinds) {
     Watch watch;
     assert_int_equal(watch.fault(), Fault::kNone);
@@ -50,7 +50,7 @@ void three_of_a_kind_are_a_fault(void**) {
   }
 }
 
-void sixteen_frames_are_the_window(void**) {
+TEST(sixteen_frames_are_the_window) {
   for (const Kind& kind : kKinds) {
     Watch watch;
     watch.note(kind.mark, 2);
@@ -68,7 +68,7 @@ void sixteen_frames_are_the_window(void**) {
   }
 }
 
-void kinds_are_counted_apart(void**) {
+TEST(kinds_are_counted_apart) {
   Watch watch;
   watch.note(E2eMark::kSequence, 2);
   watch.note(E2eMark::kCorrupt, 2);
@@ -82,7 +82,7 @@ void kinds_are_counted_apart(void**) {
 }
 
 // A CRC that fits another message is a wrong CRC all the same.
-void masquerades_are_corrupt_too(void**) {
+TEST(masquerades_are_corrupt_too) {
   Watch watch;
   watch.note(E2eMark::kMasquerade, 2);
   watch.note(E2eMark::kCorrupt);
@@ -91,7 +91,7 @@ void masquerades_are_corrupt_too(void**) {
   assert_int_equal(watch.fault(), Fault::kMessageMasquerade);
 }
 
-void a_second_without_frames_empties_it(void**) {
+TEST(a_second_without_frames_empties_it) {
   Watch watch;
   watch.note(E2eMark::kCorrupt, 3);
   watch.now += kE2eWindowForget_us;
@@ -110,13 +110,4 @@ void a_second_without_frames_empties_it(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(three_of_a_kind_are_a_fault),
-      cmocka_unit_test(sixteen_frames_are_the_window),
-      cmocka_unit_test(kinds_are_counted_apart),
-      cmocka_unit_test(masquerades_are_corrupt_too),
-      cmocka_unit_test(a_second_without_frames_empties_it),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

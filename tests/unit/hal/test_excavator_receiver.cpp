@@ -12,7 +12,7 @@ using dbc::RawState;
 
 using ExcavatorFeed = Feed<ExcavatorReceiver>;
 
-void strokes_and_pressures(void**) {
+TEST(strokes_and_pressures) {
   ExcavatorFeed feed;
   const TimeUs boom_us = feed.send(bus::BoomStroke{{1.1, RawState::kValid}});
   const TimeUs arm_us = feed.send(bus::ArmStroke{{1.2, RawState::kValid}});
@@ -34,7 +34,7 @@ void strokes_and_pressures(void**) {
   assert_int_equal(rejected(feed.receiver.total()), 0);
 }
 
-void pumps_engine_and_valve(void**) {
+TEST(pumps_engine_and_valve) {
   ExcavatorFeed feed;
   const TimeUs pump_us =
       feed.send(bus::PumpState{{0.25, RawState::kValid}, {0.75, RawState::kValid}});
@@ -57,7 +57,7 @@ void pumps_engine_and_valve(void**) {
   assert_signal(in.valve_enabled, 1.0, valve_us);
 }
 
-void swing(void**) {
+TEST(swing) {
   Feed<WithAllParts<ExcavatorReceiver>> feed;
   const TimeUs motor_us = feed.send(bus::SwingState{
       {-1.25, RawState::kValid}, {11e6, RawState::kValid}, {12e6, RawState::kValid}});
@@ -71,7 +71,7 @@ void swing(void**) {
 }
 
 // Without a swing drive its frames, good or bad, are nobody's.
-void another_machines_swing_is_foreign(void**) {
+TEST(another_machines_swing_is_foreign) {
   ExcavatorFeed feed;
   CanFrame corrupt = frame_of(filled<bus::SwingState>(1000), 1);
   corrupt.data[3] ^= 1U;
@@ -98,7 +98,7 @@ void assert_all(const Signal<std::array<double, count>>& signal,
 }
 
 /// A lever that the station does not have is at rest; one that is broken breaks all.
-void levers(void**) {
+TEST(levers) {
   ExcavatorFeed feed;
   bus::OperatorAxes axes{{0.2, RawState::kValid},
                          {-0.4, RawState::kValid},
@@ -117,7 +117,7 @@ void levers(void**) {
   assert_int_equal(lever.validity, Validity::kError);
 }
 
-void duties_to_try_and_their_windows(void**) {
+TEST(duties_to_try_and_their_windows) {
   ExcavatorFeed feed;
   const TimeUs duty_us = feed.send(bus::CommissionDuty{
       {0.25, RawState::kValid}, {0.0, RawState::kNotAvailable}, {-1.0, RawState::kValid}});
@@ -143,7 +143,7 @@ void duties_to_try_and_their_windows(void**) {
 }
 
 /// Nobody knows whose window it is.
-void a_window_of_no_drive_is_nobodys(void**) {
+TEST(a_window_of_no_drive_is_nobodys) {
   ExcavatorFeed feed;
   bus::CommissionWindow window;
   window.drive = {bus::CommissionWindow::Drive::kBoom, RawState::kNotAvailable};
@@ -153,7 +153,7 @@ void a_window_of_no_drive_is_nobodys(void**) {
   }
 }
 
-void operator_and_identity(void**) {
+TEST(operator_and_identity) {
   ExcavatorFeed feed;
   bus::OperatorCommand command;
   command.enable.value = bus::OperatorCommand::Enable::kOn;
@@ -174,7 +174,7 @@ void operator_and_identity(void**) {
   assert_signal(feed.receiver.identity().dbc_version, 7.0, identity_us);
 }
 
-void one_signal_is_lost_the_other_stays(void**) {
+TEST(one_signal_is_lost_the_other_stays) {
   ExcavatorReceiver receiver;
   TimeUs now = synchronise<bus::BoomPressure>(receiver);
   const AxisInputs& axis = receiver.inputs().axis[0];
@@ -195,7 +195,7 @@ void one_signal_is_lost_the_other_stays(void**) {
 }
 
 // Grade is a dozer's: the frame is refused.
-void another_kinds_task_is_out_of_range(void**) {
+TEST(another_kinds_task_is_out_of_range) {
   ExcavatorReceiver receiver;
   const TimeUs now = synchronise<bus::OperatorCommand>(receiver);
   receiver.accept(frame_with<bus::OperatorCommand>(bus::OperatorCommand::kTask, 2, 3), now);
@@ -205,18 +205,4 @@ void another_kinds_task_is_out_of_range(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(strokes_and_pressures),
-      cmocka_unit_test(pumps_engine_and_valve),
-      cmocka_unit_test(swing),
-      cmocka_unit_test(another_machines_swing_is_foreign),
-      cmocka_unit_test(levers),
-      cmocka_unit_test(duties_to_try_and_their_windows),
-      cmocka_unit_test(a_window_of_no_drive_is_nobodys),
-      cmocka_unit_test(operator_and_identity),
-      cmocka_unit_test(one_signal_is_lost_the_other_stays),
-      cmocka_unit_test(another_kinds_task_is_out_of_range),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

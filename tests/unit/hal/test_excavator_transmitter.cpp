@@ -17,7 +17,7 @@ struct SwingTransmitter : ExcavatorTransmitter {
 };
 using SwingSender = Sender<SwingTransmitter>;
 
-void periods(void**) {
+TEST(periods) {
   for (const TimeUs jitter_us : {0, 4000}) {
     const auto tally =
         sent_in_10_s<ExcavatorTransmitter, bus::SpoolCommand, bus::PumpCommand, bus::EcuStatus,
@@ -30,7 +30,7 @@ void periods(void**) {
 }
 
 // Beside the rest, which stays as it is; without a swing drive nothing of it.
-void periods_of_the_swings_frames(void**) {
+TEST(periods_of_the_swings_frames) {
   const auto tally =
       sent_in_10_s<SwingTransmitter, bus::SpoolCommand, bus::SwingCommand, bus::PumpCommand,
                    bus::EcuMotion, bus::TaskStatus, bus::EcuIdentity>(0);
@@ -49,13 +49,13 @@ void periods_of_the_swings_frames(void**) {
   assert_null(sender.find<bus::PumpCommand>());
 }
 
-void protection(void**) {
+TEST(protection) {
   check_protection<ExcavatorTransmitter, bus::SpoolCommand>();
   check_protection<ExcavatorTransmitter, bus::PumpCommand>();
   check_protection<SwingTransmitter, bus::SwingCommand>();
 }
 
-void pilot_cut(void**) { check_pilot_cut<ExcavatorTransmitter, bus::SpoolCommand>(); }
+TEST(pilot_cut) { check_pilot_cut<ExcavatorTransmitter, bus::SpoolCommand>(); }
 
 void assert_neutral(const ExcavatorSender& sender) {
   const auto command = sender.sent<bus::SpoolCommand>();
@@ -68,7 +68,7 @@ void assert_neutral(const ExcavatorSender& sender) {
   }
 }
 
-void duty(void**) {
+TEST(duty) {
   ExcavatorSender sender;
   sender.call(kStartUs);
   assert_neutral(sender);
@@ -93,7 +93,7 @@ void duty(void**) {
   assert_neutral(sender);
 }
 
-void a_duty_that_is_not_finite_stops_all(void**) {
+TEST(a_duty_that_is_not_finite_stops_all) {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       ExcavatorSender sender;
@@ -116,7 +116,7 @@ void assert_swing(const SwingSender& sender, bool on, double duty) {
   assert_near(swing.swing_duty_ratio.value, duty, 1e-12);
 }
 
-void swing_duty(void**) {
+TEST(swing_duty) {
   SwingSender sender;
   sender.call(kStartUs);
   assert_swing(sender, false, 0.0);
@@ -141,7 +141,7 @@ void swing_duty(void**) {
   }
 }
 
-void task_status(void**) {
+TEST(task_status) {
   SwingSender sender;
   ExcavatorStatus& out = sender.outputs.status;
   out.swing_wanted_radps = -0.5;
@@ -181,7 +181,7 @@ void assert_swash(const dbc::Physical& sent, double expected) {
   assert_near(sent.value, expected, 1e-9);
 }
 
-void swash(void**) {
+TEST(swash) {
   struct Case {
     bool enable;
     double duty;
@@ -205,7 +205,7 @@ void swash(void**) {
   }
 }
 
-void learnt_valves(void**) {
+TEST(learnt_valves) {
   ExcavatorSender sender;
   auto& edges = sender.outputs.status.edges;
   edges[0] = {{true, 0.031}, {false, 0.02}};
@@ -223,7 +223,7 @@ void learnt_valves(void**) {
   assert_near(sent.bucket_retract_edge_ratio.value, 0.125, 1e-9);  // what the frame can say
 }
 
-void tip_load(void**) {
+TEST(tip_load) {
   for (const bool known : {false, true}) {
     ExcavatorSender sender;
     sender.outputs.status.tip_load = {known, {-31'230.0, 4'560.0}, 780.0, known, 512.5, 620.0};
@@ -247,7 +247,7 @@ void tip_load(void**) {
   }
 }
 
-void motion_and_hydraulics(void**) {
+TEST(motion_and_hydraulics) {
   ExcavatorSender sender;
   ExcavatorStatus& out = sender.outputs.status;
   out.wanted_velocity_mps = {0.1, -0.2, 0.3};
@@ -267,14 +267,4 @@ void motion_and_hydraulics(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(periods),    cmocka_unit_test(periods_of_the_swings_frames),
-      cmocka_unit_test(protection), cmocka_unit_test(pilot_cut),
-      cmocka_unit_test(duty),       cmocka_unit_test(a_duty_that_is_not_finite_stops_all),
-      cmocka_unit_test(swing_duty), cmocka_unit_test(task_status),
-      cmocka_unit_test(swash),      cmocka_unit_test(learnt_valves),
-      cmocka_unit_test(tip_load),   cmocka_unit_test(motion_and_hydraulics),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

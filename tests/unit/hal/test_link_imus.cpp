@@ -37,7 +37,7 @@ struct Arm {
   [[nodiscard]] const ImuInputs& imu() const { return receiver.inputs().imu[1]; }
 };
 
-void printed_slope(void**) {
+TEST(printed_slope) {
   assert_int_equal(bus::SSI2::kId, kSlopeId);
   const bus::SSI2 level = bus::SSI2::decode(kSlope);
   assert_near(level.pitch_rad.value, 0.0, 0.0);
@@ -57,7 +57,7 @@ void printed_slope(void**) {
   }
 }
 
-void printed_rates_and_forces(void**) {
+TEST(printed_rates_and_forces) {
   Arm arm;
   arm.receiver.accept(frame(kRatesId, kRates), kNow);
   arm.receiver.accept(frame(kForcesId, kForces), kNow);
@@ -80,7 +80,7 @@ void printed_rates_and_forces(void**) {
   assert_true(arm.receiver.inputs().imu[0].rates.validity == Validity::kNotReceived);
 }
 
-void rates_scale(void**) {
+TEST(rates_scale) {
   Arm arm;
   dbc::Payload rates = kRates;
   rates[1] = 0x7E;  // 256 counts of 1/128 deg/s.
@@ -93,7 +93,7 @@ void rates_scale(void**) {
   assert_true(arm.imu().rates.value.latency_s < 0.0);
 }
 
-void a_sensor_in_doubt_says_so(void**) {
+TEST(a_sensor_in_doubt_says_so) {
   Arm arm;
   dbc::Payload rates = kRates;
   const struct {
@@ -121,7 +121,7 @@ void a_sensor_in_doubt_says_so(void**) {
   assert_true(arm.imu().forces.validity == Validity::kNotAvailable);
 }
 
-void refused_frames_leave_the_last_value(void**) {
+TEST(refused_frames_leave_the_last_value) {
   Arm arm;
   arm.receiver.accept(frame(kRatesId, kRates), kNow);
   const TimeUs later = kNow + kPeriod;
@@ -141,7 +141,7 @@ void refused_frames_leave_the_last_value(void**) {
   assert_true(arm.imu().rates.validity == Validity::kValid);
 }
 
-void a_second_sender_is_an_error(void**) {
+TEST(a_second_sender_is_an_error) {
   Arm arm;
   TimeUs now = kNow;
   // Frames of two cycles in one, and a clock that is a tenth fast, are sound.
@@ -159,7 +159,7 @@ void a_second_sender_is_an_error(void**) {
   assert_in_range(errors, 8, 20);
 }
 
-void others_stay_foreign(void**) {
+TEST(others_stay_foreign) {
   Arm arm;
   arm.receiver.accept(frame(0x0CF02AE4, kRates), kNow);
   arm.receiver.accept(frame(kSlopeId, kSlope), kNow);
@@ -172,7 +172,7 @@ void others_stay_foreign(void**) {
   assert_int_equal(without.foreign(), 1);
 }
 
-void filters_let_them_through(void**) {
+TEST(filters_let_them_through) {
   const auto ids = imu_ids({0xE1, 0, 0xE3, 0});
   const std::array<std::uint32_t, 8> expected = {0x0CF02AE1, 0x0CF02DE1, 0, 0,
                                                  0x0CF02AE3, 0x0CF02DE3, 0, 0};
@@ -181,16 +181,4 @@ void filters_let_them_through(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(printed_slope),
-      cmocka_unit_test(printed_rates_and_forces),
-      cmocka_unit_test(rates_scale),
-      cmocka_unit_test(a_sensor_in_doubt_says_so),
-      cmocka_unit_test(refused_frames_leave_the_last_value),
-      cmocka_unit_test(a_second_sender_is_an_error),
-      cmocka_unit_test(others_stay_foreign),
-      cmocka_unit_test(filters_let_them_through),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

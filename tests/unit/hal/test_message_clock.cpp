@@ -9,7 +9,7 @@ namespace {
 
 using namespace graben;
 
-void what_passes_and_is_not_sent_is_lag(void**) {
+TEST(what_passes_and_is_not_sent_is_lag) {
   MessageClock clock;
   advance(clock, 10'000, 10'000);
   assert_int_equal(clock.lag_us, 0);  // never below
@@ -21,13 +21,13 @@ void what_passes_and_is_not_sent_is_lag(void**) {
   assert_int_equal(clock.lag_us, 0);
 }
 
-void more_than_60_ms_is_stale(void**) {
+TEST(more_than_60_ms_is_stale) {
   assert_false(is_stale({}));
   assert_false(is_stale({60'000}));
   assert_true(is_stale({60'001}));
 }
 
-void the_lag_does_not_overflow(void**) {
+TEST(the_lag_does_not_overflow) {
   MessageClock clock;
   advance(clock, 2000 * kSecondUs, 0);
   assert_int_equal(clock.lag_us, 1000 * kSecondUs);
@@ -35,11 +35,4 @@ void the_lag_does_not_overflow(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_passes_and_is_not_sent_is_lag),
-      cmocka_unit_test(more_than_60_ms_is_stale),
-      cmocka_unit_test(the_lag_does_not_overflow),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

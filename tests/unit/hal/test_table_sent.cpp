@@ -33,7 +33,7 @@ struct Sent {
   }
 };
 
-void duties_become_levers(void**) {
+TEST(duties_become_levers) {
   Sent sent;
   sent.outputs.enable = true;
   sent.outputs.duty_ratio[0] = 0.5;
@@ -50,7 +50,7 @@ void duties_become_levers(void**) {
   assert_true(sent.transmitter.is_command(kLevers));
 }
 
-void without_enable_all_is_neutral(void**) {
+TEST(without_enable_all_is_neutral) {
   Sent sent;
   sent.outputs.duty_ratio[0] = 0.5;
   sent.cycle();
@@ -63,7 +63,7 @@ void without_enable_all_is_neutral(void**) {
   assert_int_equal(sent.find(kLevers)->data[0], 0);
 }
 
-void a_change_of_enable_does_not_wait(void**) {
+TEST(a_change_of_enable_does_not_wait) {
   Sent sent;
   sent.cycle();
   const int first = sent.find(kSetting)->data[7];
@@ -76,7 +76,7 @@ void a_change_of_enable_does_not_wait(void**) {
   assert_int_equal(sent.find(kSetting)->data[7], first + 1);
 }
 
-void what_cannot_say_cut_falls_silent(void**) {
+TEST(what_cannot_say_cut_falls_silent) {
   Sent sent;
   sent.outputs.pilot_known = true;
   sent.outputs.pilot_cut = true;
@@ -95,12 +95,4 @@ void what_cannot_say_cut_falls_silent(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(duties_become_levers),
-      cmocka_unit_test(without_enable_all_is_neutral),
-      cmocka_unit_test(a_change_of_enable_does_not_wait),
-      cmocka_unit_test(what_cannot_say_cut_falls_silent),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -28,7 +28,7 @@ std::vector<double> shown(double true_pa, int count, unsigned seed) {
 }
 
 /// On average it is right on both sides of 0, and as far off as it says.
-void a_zero_is_found_on_both_sides(void**) {
+TEST(a_zero_is_found_on_both_sides) {
   for (const double zero_pa : {-0.8e6, -0.3e6, 0.0, 0.6e6, 1.2e6}) {
     double off_pa = 0.0;
     double squares = 0.0;
@@ -44,13 +44,13 @@ void a_zero_is_found_on_both_sides(void**) {
   }
 }
 
-void nothing_above_0_tells_no_zero(void**) {
+TEST(nothing_above_0_tells_no_zero) {
   assert_false(clipped_zero({}, kNoise_pa).has_value());
   assert_false(clipped_zero({0.0, 0.0, 0.0}, kNoise_pa).has_value());
 }
 
 /// What clipping adds to a mean is taken off again; away from 0 nothing changes.
-void a_mean_loses_what_clipping_added(void**) {
+TEST(a_mean_loses_what_clipping_added) {
   for (const double true_pa : {-0.8e6, -0.2e6, 0.5e6, 2.0e6}) {
     double sum_pa = 0.0;
     const std::vector<double> readings_pa = shown(true_pa, 20000, 5);
@@ -66,7 +66,7 @@ void a_mean_loses_what_clipping_added(void**) {
 }
 
 /// Noise beside a slow change; readings near 0, which are clipped, do not count.
-void noise_is_told_from_a_slow_change(void**) {
+TEST(noise_is_told_from_a_slow_change) {
   MachineLog log;
   log.segments.resize(1);
   std::mt19937_64 random(3);
@@ -81,12 +81,4 @@ void noise_is_told_from_a_slow_change(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_zero_is_found_on_both_sides),
-      cmocka_unit_test(nothing_above_0_tells_no_zero),
-      cmocka_unit_test(a_mean_loses_what_clipping_added),
-      cmocka_unit_test(noise_is_told_from_a_slow_change),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -76,7 +76,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 bool has(const std::string& text, const std::string& what) { return count(text, what) > 0; }
 
-void what_is_written_reads_back(void** /*state*/) {
+TEST(what_is_written_reads_back) {
   const std::string old_text = shipped_text();
   const machines::ExcavatorMachine old = load(old_text);
   const JudgedFit fit = fit_of(old.profile);
@@ -100,7 +100,7 @@ void what_is_written_reads_back(void** /*state*/) {
               old.profile.valve.spool[kBoom].retract_in_m2);
 }
 
-void where_it_is_from_is_told(void** /*state*/) {
+TEST(where_it_is_from_is_told) {
   const std::string old_text = shipped_text();
   const machines::ExcavatorMachine old = load(old_text);
   const std::string text = identified_text(old_text, old, fit_of(old.profile), kFrom);
@@ -117,7 +117,7 @@ void where_it_is_from_is_told(void** /*state*/) {
   assert_string_equal(entry("pump[1].displacement").from.c_str(), kFrom);
 }
 
-void all_else_stays_as_it_was_written(void** /*state*/) {
+TEST(all_else_stays_as_it_was_written) {
   const std::string old_text = shipped_text();
   const machines::ExcavatorMachine old = load(old_text);
   const std::vector<std::string> before = lines_of(old_text);
@@ -135,7 +135,7 @@ void all_else_stays_as_it_was_written(void** /*state*/) {
   assert_int_equal(changed, 7);
 }
 
-void a_second_time_replaces_the_first(void** /*state*/) {
+TEST(a_second_time_replaces_the_first) {
   const std::string old_text = shipped_text();
   const machines::ExcavatorMachine old = load(old_text);
   const std::string once = identified_text(old_text, old, fit_of(old.profile), kFrom);
@@ -155,7 +155,7 @@ std::string set(const std::string& text, const std::string& section, const std::
   return profile.text();
 }
 
-void values_are_found_however_they_are_written(void** /*state*/) {
+TEST(values_are_found_however_they_are_written) {
   assert_string_equal(set("[a]\nx = 1 # kept\ny = 2\n", "a", "x", "7").c_str(),
                       "[a]\n# identified: 1 before; why\nx = 7 # kept\ny = 2\n");
   assert_string_equal(set("[a]\nx = 1\n\n[b]\ny = 2\n", "a", "z", "7").c_str(),
@@ -175,7 +175,7 @@ void values_are_found_however_they_are_written(void** /*state*/) {
   assert_string_equal(toml_quoted("a\"b\\c\n").c_str(), "\"a\\\"b\\\\c\\u000A\"");
 }
 
-void what_is_no_toml_is_refused(void** /*state*/) {
+TEST(what_is_no_toml_is_refused) {
   bool refused = false;
   try {
     ProfileText("[a\n");
@@ -187,14 +187,4 @@ void what_is_no_toml_is_refused(void** /*state*/) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_written_reads_back),
-      cmocka_unit_test(where_it_is_from_is_told),
-      cmocka_unit_test(all_else_stays_as_it_was_written),
-      cmocka_unit_test(a_second_time_replaces_the_first),
-      cmocka_unit_test(values_are_found_however_they_are_written),
-      cmocka_unit_test(what_is_no_toml_is_refused),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

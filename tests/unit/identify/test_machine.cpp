@@ -42,7 +42,7 @@ struct Commissioned {
   MachineEstimate found;
 };
 
-void a_hidden_machine_is_found(void**) {
+TEST(a_hidden_machine_is_found) {
   const Commissioned commissioned(11);
   const runs::IdentificationErrors errors =
       runs::errors_of(commissioned.machine.profile, commissioned.found, commissioned.truth);
@@ -57,7 +57,7 @@ void a_hidden_machine_is_found(void**) {
 }
 
 /// Its truth as an estimate has no error, and gives back what it is made of.
-void what_is_known_is_without_error(void**) {
+TEST(what_is_known_is_without_error) {
   const machines::SimulatedExcavator machine = machines::hidden_machine(test::excavator(), 5);
   const machines::MachineTruth truth = machines::truth_of(machine.plant);
   const MachineEstimate known = runs::known_machine(machine.profile, truth);
@@ -78,7 +78,7 @@ void what_is_known_is_without_error(void**) {
   }
 }
 
-void a_curve_and_its_inverse(void**) {
+TEST(a_curve_and_its_inverse) {
   const OpeningCurve curve = {0.3, 0.02, 1.6};
   for (const double travel : {0.25, 0.3, 0.35, 0.6, 1.0}) {
     assert_near(curve.travel_at(curve.area_ratio(travel)), travel, 1e-9);
@@ -88,7 +88,7 @@ void a_curve_and_its_inverse(void**) {
 }
 
 /// A log in which a drive is not moved says so, and its values stay.
-void what_is_not_driven_is_said(void**) {
+TEST(what_is_not_driven_is_said) {
   machines::SimulatedExcavator machine = test::excavator();
   runs::CommissionOptions options = runs::usual_commission(machine);
   options.sequence.drives = {false, true, false};
@@ -111,7 +111,7 @@ void what_is_not_driven_is_said(void**) {
               machine.profile.valve.spool[kBucket].extend_in_m2, 0.0);
 }
 
-void a_log_that_says_nothing_is_refused(void**) {
+TEST(a_log_that_says_nothing_is_refused) {
   LogCollector empty("empty.log");
   bool refused = false;
   try {
@@ -124,13 +124,4 @@ void a_log_that_says_nothing_is_refused(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_hidden_machine_is_found),
-      cmocka_unit_test(what_is_known_is_without_error),
-      cmocka_unit_test(a_curve_and_its_inverse),
-      cmocka_unit_test(what_is_not_driven_is_said),
-      cmocka_unit_test(a_log_that_says_nothing_is_refused),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -89,7 +89,7 @@ MotionRun obedient(double seed) {
   return of;
 }
 
-void derivatives_are_those_of_the_error(void** /*state*/) {
+TEST(derivatives_are_those_of_the_error) {
   const MotionModel model = machine();
   const MotionRun of = run(0.3);
   const Velocities rates = predict(model, of);
@@ -122,7 +122,7 @@ void derivatives_are_those_of_the_error(void** /*state*/) {
   }
 }
 
-void nothing_moves_before_dead_time_and_edge(void** /*state*/) {
+TEST(nothing_moves_before_dead_time_and_edge) {
   const MotionModel model = machine();
   MotionRun of = run(0.0);
   for (double& command : of.command[kBoom]) {
@@ -144,7 +144,7 @@ void nothing_moves_before_dead_time_and_edge(void** /*state*/) {
   assert_near(open[kRows - 1], -0.7, 1e-9);
 }
 
-void a_first_command_is_new_to_a_joint_that_stands(void** /*state*/) {
+TEST(a_first_command_is_new_to_a_joint_that_stands) {
   const MotionModel model = machine();
   const auto opened = [&](double velocity_radps) {
     MotionRun of = run(0.0);
@@ -181,7 +181,7 @@ std::vector<JointState<double>> stepped(const JointModel& model) {
   return motion<double>(input, kBoom, model.value.data(), model.grid);
 }
 
-void a_heavy_pose_answers_later(void** /*state*/) {
+TEST(a_heavy_pose_answers_later) {
   const auto velocity_radps = [](double heavier) {
     JointModel model = joint();
     model.grid.usual[1] = 0.5;  // Cosine of the boom; it is level here.
@@ -196,7 +196,7 @@ void a_heavy_pose_answers_later(void** /*state*/) {
   assert_near(inertia_of(model.value.data(), model.grid, pose_of(Angles{})), 0.2, 0.0);
 }
 
-void a_joint_rocks_the_machine_that_carries_it(void** /*state*/) {
+TEST(a_joint_rocks_the_machine_that_carries_it) {
   JointModel model = joint();
   const auto turned = [&] { return stepped(model); };
   model.value[kRockOwn] = 0.0;
@@ -213,7 +213,7 @@ void a_joint_rocks_the_machine_that_carries_it(void** /*state*/) {
   assert_near(rocking.back().turned_rad, firm.back().turned_rad, 1e-4);
 }
 
-void a_model_explains_its_own_motion(void** /*state*/) {
+TEST(a_model_explains_its_own_motion) {
   const std::array<Score, kJoints> own = judge(machine(), {obedient(0.1), obedient(1.7)});
   const std::array<Score, kJoints> other = judge(machine(), {run(0.1), run(1.7)});
   for (std::size_t of = 0; of < kJoints; ++of) {
@@ -224,7 +224,7 @@ void a_model_explains_its_own_motion(void** /*state*/) {
   }
 }
 
-void a_second_ahead_knows_nothing_of_that_second(void** /*state*/) {
+TEST(a_second_ahead_knows_nothing_of_that_second) {
   const MotionRun of = obedient(0.4);
   constexpr std::size_t kFrom = 40;
   const Velocities turns = turns_ahead(machine(), of);
@@ -280,7 +280,7 @@ MotionRun lifting(const JointModel& boom, unsigned seed) {
   return of;
 }
 
-void linkage_and_slow_pump_are_found(void** /*state*/) {
+TEST(linkage_and_slow_pump_are_found) {
   JointModel boom = joint();
   for (const std::size_t plain : {kLoadForward, kLoadBackward}) {
     std::fill_n(boom.value.begin() + static_cast<std::ptrdiff_t>(plain), kPose, 0.0);
@@ -329,7 +329,7 @@ std::string refusal(std::vector<MotionRun> train, std::vector<MotionRun> judge) 
   return "";
 }
 
-void judged_runs_are_others(void** /*state*/) {
+TEST(judged_runs_are_others) {
   const MotionSplit split = split_motion(
       {run(0.0), run(0.1), run(0.2), run(0.3), run(0.4), run(0.5), run(0.6), run(0.7)}, {});
   assert_int_equal(split.train.size(), 6);
@@ -341,7 +341,7 @@ void judged_runs_are_others(void** /*state*/) {
   assert_true(refusal({run(0.0)}, {run(0.1)}).empty());
 }
 
-void deviations_that_nothing_gives_are_null(void** /*state*/) {
+TEST(deviations_that_nothing_gives_are_null) {
   MotionResult result;
   result.model = machine();
   result.model[kBoom].deviation[kForward] = INFINITY;
@@ -357,18 +357,4 @@ void deviations_that_nothing_gives_are_null(void** /*state*/) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(derivatives_are_those_of_the_error),
-      cmocka_unit_test(nothing_moves_before_dead_time_and_edge),
-      cmocka_unit_test(a_first_command_is_new_to_a_joint_that_stands),
-      cmocka_unit_test(a_heavy_pose_answers_later),
-      cmocka_unit_test(a_joint_rocks_the_machine_that_carries_it),
-      cmocka_unit_test(a_model_explains_its_own_motion),
-      cmocka_unit_test(a_second_ahead_knows_nothing_of_that_second),
-      cmocka_unit_test(linkage_and_slow_pump_are_found),
-      cmocka_unit_test(judged_runs_are_others),
-      cmocka_unit_test(deviations_that_nothing_gives_are_null),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

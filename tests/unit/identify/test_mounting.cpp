@@ -98,7 +98,7 @@ void assert_says(const std::string& text, const std::string& words) {
   }
 }
 
-void turns_are_found(void**) {
+TEST(turns_are_found) {
   for (const bool on_rocker : {false, true}) {
     Site site{profile_with_imus(on_rocker)};
     const MountingFit fit = fit_mounting(site.profile, site.ask(8));
@@ -113,7 +113,7 @@ void turns_are_found(void**) {
 }
 
 /// On average over many sites it is as far off as it says.
-void deviations_are_what_they_say(void**) {
+TEST(deviations_are_what_they_say) {
   constexpr int kSites = 150;
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   for (int n = 0; n < kSites; ++n) {
@@ -137,7 +137,7 @@ void deviations_are_what_they_say(void**) {
 }
 
 /// All three turned alike: heights, or an IMU that sits right, tell it from a peg elsewhere.
-void a_common_turn_wants_a_reference(void**) {
+TEST(a_common_turn_wants_a_reference) {
   Site site{profile_with_imus(false)};
   site.turned = {0.02, 0.02, 0.02};
   MountingAsk ask = site.ask(8);
@@ -159,7 +159,7 @@ void a_common_turn_wants_a_reference(void**) {
   assert_near(fit_mounting(site.profile, ask).turn_rad[kArm], 0.12, 1e-3);
 }
 
-void postures_too_much_alike_are_refused_with_what_is_missing(void**) {
+TEST(postures_too_much_alike_are_refused_with_what_is_missing) {
   Site site{profile_with_imus(false)};
   site.noise_rad = 1e-3;
   MountingAsk ask = site.ask(8);
@@ -179,7 +179,7 @@ void postures_too_much_alike_are_refused_with_what_is_missing(void**) {
               "3 touches of the peg; at least 4");
 }
 
-void what_is_no_touch_is_named(void**) {
+TEST(what_is_no_touch_is_named) {
   Site site{profile_with_imus(false)};
   MountingAsk ask = site.ask(8);
   ask.pegs[0].touches[2] = site.rest(8.4, 1.6, 12.0);
@@ -201,13 +201,4 @@ void what_is_no_touch_is_named(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(turns_are_found),
-      cmocka_unit_test(deviations_are_what_they_say),
-      cmocka_unit_test(a_common_turn_wants_a_reference),
-      cmocka_unit_test(postures_too_much_alike_are_refused_with_what_is_missing),
-      cmocka_unit_test(what_is_no_touch_is_named),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

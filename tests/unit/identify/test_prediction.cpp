@@ -40,7 +40,7 @@ ValveMoment moment(double boom, double arm, double bucket) {
 }
 
 /// The controller's own way, from speeds to openings, must lead back.
-void speeds_are_those_that_need_these_openings(void** /*state*/) {
+TEST(speeds_are_those_that_need_these_openings) {
   const McvMachine valve = mcv_machine(machine());
   const std::array<ValveMoment, 4> moments = {moment(0.5, 0.0, 0.0), moment(0.0, -0.4, 0.0),
                                               moment(0.45, 0.5, -0.3), moment(-0.3, 0.35, 0.4)};
@@ -66,7 +66,7 @@ void speeds_are_those_that_need_these_openings(void** /*state*/) {
   }
 }
 
-void a_load_that_drives_is_held_by_the_draining_edge(void** /*state*/) {
+TEST(a_load_that_drives_is_held_by_the_draining_edge) {
   ValveMoment now = moment(-0.3, 0.0, 0.0);
   now.rod_pa[kBoom] = 0.0;
   now.cap_pa[kBoom] = 8e6;
@@ -104,7 +104,7 @@ std::size_t starts_at(const ExcavatorProfile& profile, const MachineLog& log) {
   return at;
 }
 
-void dead_time_and_edge_are_in_it(void** /*state*/) {
+TEST(dead_time_and_edge_are_in_it) {
   std::vector<double> duty(300, 0.0);
   std::fill(duty.begin() + 100, duty.end(), 0.5);
   MachineLog log;
@@ -122,7 +122,7 @@ void dead_time_and_edge_are_in_it(void** /*state*/) {
   assert_int_equal(starts_at(machine(), log), duty.size());
 }
 
-void a_shut_valve_is_not_judged(void** /*state*/) {
+TEST(a_shut_valve_is_not_judged) {
   std::vector<double> duty(600, 0.0);
   std::fill(duty.begin() + 100, duty.begin() + 200, 0.5);
   MachineLog log;
@@ -150,7 +150,7 @@ std::vector<std::vector<PredictedSegment>> pulses(double ratio, std::size_t late
   return {{made}};
 }
 
-void slower_and_later_are_told_apart(void** /*state*/) {
+TEST(slower_and_later_are_told_apart) {
   const std::vector<LogStretch> all = {{0, 0, 0, 2000}};
   const PredictionScore same = score(pulses(1.0, 0), all);
   assert_near(same.share(), 0.0, 1e-12);
@@ -168,7 +168,7 @@ void slower_and_later_are_told_apart(void** /*state*/) {
   assert_true(said[1].find(" ms later than the profile says") != std::string::npos);
 }
 
-void a_measured_spool_tells_how_late_it_is(void** /*state*/) {
+TEST(a_measured_spool_tells_how_late_it_is) {
   PredictionScore off = score(pulses(1.0, 4), {{0, 0, 0, 2000}});
   std::array<DriveEstimate, kAxisCount> found;
   judge_spools(machine(), found, off);
@@ -205,7 +205,7 @@ bool is_refused(const std::vector<MachineLog>& logs) {
   }
 }
 
-void what_judges_is_not_fitted(void** /*state*/) {
+TEST(what_judges_is_not_fitted) {
   const LogSplit split = split_logs({log_of(true)});
   // Six stretches out, six in; the third of each.
   assert_int_equal(split.judged.size(), 2);
@@ -229,15 +229,4 @@ void what_judges_is_not_fitted(void** /*state*/) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(speeds_are_those_that_need_these_openings),
-      cmocka_unit_test(a_load_that_drives_is_held_by_the_draining_edge),
-      cmocka_unit_test(dead_time_and_edge_are_in_it),
-      cmocka_unit_test(a_shut_valve_is_not_judged),
-      cmocka_unit_test(slower_and_later_are_told_apart),
-      cmocka_unit_test(a_measured_spool_tells_how_late_it_is),
-      cmocka_unit_test(what_judges_is_not_fitted),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

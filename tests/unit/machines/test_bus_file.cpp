@@ -48,7 +48,7 @@ std::string with(std::string text, const std::string& old, const std::string& no
   return text.replace(at, old.size(), now);
 }
 
-void a_layout_becomes_a_row(void**) {
+TEST(a_layout_becomes_a_row) {
   const WrittenFile file("bus.toml", kHead + kMessage + kSignal);
   const machines::BusFile bus = machines::load_bus(file.path());
   assert_int_equal(bus.table.message_count, 1);
@@ -64,7 +64,7 @@ void a_layout_becomes_a_row(void**) {
   assert_false(bus.capabilities.protection);
 }
 
-void errors_name_message_signal_and_line(void**) {
+TEST(errors_name_message_signal_and_line) {
   const std::string whole = kHead + kMessage + kSignal;
   assert_says(with(whole, "start = 8", "start = 56"),
               {"message Engine, signal Speed", "(line 10)", "bits 56 | 16 are beyond"});
@@ -84,7 +84,7 @@ void errors_name_message_signal_and_line(void**) {
               {"nothing says a stroke, joint_angle", "nothing takes the boom's duty"});
 }
 
-void a_protection_needs_its_bits(void**) {
+TEST(a_protection_needs_its_bits) {
   const std::string counted = with(kHead + kMessage + kSignal, "\"none\"", "\"counter\"");
   assert_says(counted, {"message Engine", "counter.start: missing"});
   const WrittenFile file("bus.toml",
@@ -95,7 +95,7 @@ void a_protection_needs_its_bits(void**) {
 }
 
 /// The shipped profile has the layout of the DBC that the simulated machine speaks.
-void the_zx200_profile_fits_its_dbc(void**) {
+TEST(the_zx200_profile_fits_its_dbc) {
   const machines::BusFile bus = machines::load_bus(machines::find_bus("zx200"));
   assert_string_equal(bus.speaks.c_str(), "zx200");
   assert_true(bus.capabilities.joint_angles && bus.capabilities.spool_by_pilot);
@@ -125,7 +125,7 @@ void the_zx200_profile_fits_its_dbc(void**) {
   assert_int_equal(found, static_cast<int>(bus.table.source_count) - 1);
 }
 
-void a_dbc_gives_the_layout(void**) {
+TEST(a_dbc_gives_the_layout) {
   const std::string text = "bus = \"test\"\nown_frames = true\ndbc = \"" ZX200_DBC
                            "\"\n[[receive]]\nmessage = \"MachineState\"\nperiod = 0.05\n"
                            "timeout = 0.16\nprotection = \"counter\"\ncounter = \"AliveCounter\"\n"
@@ -151,7 +151,7 @@ std::string shipped(const std::string& name) {
 }
 std::string zx200_text() { return shipped("zx200"); }
 
-void what_is_sent_has_bits_and_ids_of_its_own(void**) {
+TEST(what_is_sent_has_bits_and_ids_of_its_own) {
   const std::string whole = zx200_text();
   assert_says(with(whole, "\"BoomDown\"\nstart = 8", "\"BoomDown\"\nstart = 7"),
               {"message PilotPressureCmd1, signal BoomDown", "signal[1]", "bits overlap"});
@@ -169,7 +169,7 @@ void what_is_sent_has_bits_and_ids_of_its_own(void**) {
   assert_says(with(whole, "0x18FF7DE8", "0x0CFF2781"), {"receive[0]", "a message of our own bus"});
 }
 
-void neutral_and_full_can_be_sent(void**) {
+TEST(neutral_and_full_can_be_sent) {
   const std::string whole = zx200_text();
   const std::string first = "from = \"extend\"\nof = \"boom\"\nscale = 0.004\n";
   const auto first_as = [&](const char* now) { return with(whole, first, now); };
@@ -186,7 +186,7 @@ void neutral_and_full_can_be_sent(void**) {
   assert_says(with(whole, "value = 180", "value = 256"), {"raw 256", "allowed: 0 .. 255"});
 }
 
-void nothing_that_moves_is_late_unsaid(void**) {
+TEST(nothing_that_moves_is_late_unsaid) {
   const std::string whole = zx200_text();
   assert_says(with(whole, "timeout = 0.035", "timeout = 0.06"),
               {"message FrontAngle", "timeout", "allowed: 0.01 .. 0.05 s"});
@@ -196,7 +196,7 @@ void nothing_that_moves_is_late_unsaid(void**) {
               {"message MachineSettingCmd", "period", "allowed: 0.01 .. 0.1 s"});
 }
 
-void nodes_and_slopes_are_whole(void**) {
+TEST(nodes_and_slopes_are_whole) {
   const std::string encoders = shipped("encoders");
   assert_says(with(encoders, "node = 2\n", "node = 9\n"),
               {"message ArmPosition", "node", "9: there is no [[node]] of this id"});
@@ -213,7 +213,7 @@ void nodes_and_slopes_are_whole(void**) {
               {"message BoomSlope, signal PitchMerit", "range: missing"});
 }
 
-void a_side_and_a_least_can_be_sent(void**) {
+TEST(a_side_and_a_least_can_be_sent) {
   const std::string valves = shipped("aux_valves");
   assert_says(with(valves, "start = 16\nwidth = 4", "start = 16\nwidth = 1"),
               {"message Aux0Command, signal StateCommand", "2 is raw 2", "allowed: 0 .. 1"});
@@ -223,7 +223,7 @@ void a_side_and_a_least_can_be_sent(void**) {
               {"message BoomCurrents, signal ExtendCurrent", "least", "allowed: 0 .. 0.9"});
 }
 
-void late_angles_say_how_late(void**) {
+TEST(late_angles_say_how_late) {
   const std::string slopes = shipped("slopes");
   const WrittenFile file("bus.toml", slopes);
   assert_near(machines::load_bus(file.path()).capabilities.joint_latency_s, 0.02, 0.0);
@@ -233,7 +233,7 @@ void late_angles_say_how_late(void**) {
               {"joint_latency", "neither joint angles nor slopes"});
 }
 
-void interfaces_are_counted_and_told_apart(void**) {
+TEST(interfaces_are_counted_and_told_apart) {
   const std::string on = with(kMessage, "period", "interface = \"b\"\nperiod");
   const std::string a = "[[interface]]\nname = \"a\"\n";
   const std::string b = "[[interface]]\nname = \"b\"\n";
@@ -244,7 +244,7 @@ void interfaces_are_counted_and_told_apart(void**) {
   assert_says(kHead + b + b + on + kSignal, {"interface[1].name", "that of another interface"});
 }
 
-void a_swash_is_of_both_pumps(void**) {
+TEST(a_swash_is_of_both_pumps) {
   const auto swash = [](int pump) {
     return "[[send.signal]]\nsignal = \"Swash\"\nstart = " + std::to_string(8 * pump) +
            "\nwidth = 8\nfrom = \"swash\"\nof = \"pump" + std::to_string(pump) +
@@ -265,7 +265,7 @@ std::string dbc_refusal(const std::string& text) {
   return refusal_of([&] { static_cast<void>(machines::read_dbc(file.path())); });
 }
 
-void a_dbc_is_read_with_care(void**) {
+TEST(a_dbc_is_read_with_care) {
   const std::string message = "BO_ 2147483749 Angle: 8 Other\n";
   const std::string begin = " SG_ Boom : 0|16@1+ ";
   const std::string signal = begin + "(0.1,0) [0|1] \"\" Other\n";
@@ -298,7 +298,7 @@ void a_dbc_is_read_with_care(void**) {
 }
 
 /// Longer than a matcher by recursion bears.
-void a_key_of_any_length_is_refused(void**) {
+TEST(a_key_of_any_length_is_refused) {
   assert_says(kHead + kMessage + std::string(80000, 'A') + " = 1\n" + kSignal,
               {"message Engine", "unknown"});
 }
@@ -319,7 +319,7 @@ std::uint32_t hash_on(const std::string& bus) {
   return machines::load_excavator(file.path()).hash;
 }
 
-void a_profile_of_another_bus_is_another(void**) {
+TEST(a_profile_of_another_bus_is_another) {
   const std::string bus = zx200_text();
   assert_true(hash_on(bus) == hash_on("# a comment\n" + bus));
   assert_true(hash_on(bus) != hash_on(with(bus, "timeout = 0.035", "timeout = 0.030")));
@@ -327,24 +327,4 @@ void a_profile_of_another_bus_is_another(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_layout_becomes_a_row),
-      cmocka_unit_test(errors_name_message_signal_and_line),
-      cmocka_unit_test(a_protection_needs_its_bits),
-      cmocka_unit_test(the_zx200_profile_fits_its_dbc),
-      cmocka_unit_test(a_dbc_gives_the_layout),
-      cmocka_unit_test(what_is_sent_has_bits_and_ids_of_its_own),
-      cmocka_unit_test(neutral_and_full_can_be_sent),
-      cmocka_unit_test(nothing_that_moves_is_late_unsaid),
-      cmocka_unit_test(nodes_and_slopes_are_whole),
-      cmocka_unit_test(a_side_and_a_least_can_be_sent),
-      cmocka_unit_test(interfaces_are_counted_and_told_apart),
-      cmocka_unit_test(late_angles_say_how_late),
-      cmocka_unit_test(a_swash_is_of_both_pumps),
-      cmocka_unit_test(a_dbc_is_read_with_care),
-      cmocka_unit_test(a_key_of_any_length_is_refused),
-      cmocka_unit_test(a_profile_of_another_bus_is_another),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

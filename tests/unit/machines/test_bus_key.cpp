@@ -52,7 +52,7 @@ void assert_refused(const char* text, const char* key, const char* why) {
            errors.empty() ? "" : errors.front().c_str());
 }
 
-void our_own_is_the_default(void**) {
+TEST(our_own_is_the_default) {
   for (const char* text : {"", "bus = \"graben\""}) {
     const Read known = read(text);
     assert_true(known.errors.empty());
@@ -63,11 +63,11 @@ void our_own_is_the_default(void**) {
   assert_false(machines::known_buses().front().capabilities.lacks_any());
 }
 
-void another_name_is_refused_with_those_that_are_known(void**) {
+TEST(another_name_is_refused_with_those_that_are_known) {
   assert_refused("bus = \"canopen\"", "bus", "graben, mute, bare, slow, levers, foreign");
 }
 
-void what_is_lacking_has_its_stand_in(void**) {
+TEST(what_is_lacking_has_its_stand_in) {
   const Read mute =
       read("bus = \"mute\"\nstand_in = {spool_feedback = \"command\", valve_echo = \"motion\"}");
   assert_true(mute.errors.empty());
@@ -80,7 +80,7 @@ void what_is_lacking_has_its_stand_in(void**) {
   assert_true(bare.errors.empty());
 }
 
-void pilots_stand_in_for_spools_and_the_profile_for_a_swash(void**) {
+TEST(pilots_stand_in_for_spools_and_the_profile_for_a_swash) {
   const char* const levers =
       "bus = \"levers\"\nstand_in = {spool_feedback = \"pilot\", swash_command = \"profile\"}\n";
   const Read read_levers = read(levers);
@@ -92,7 +92,7 @@ void pilots_stand_in_for_spools_and_the_profile_for_a_swash(void**) {
                  "task.swash_on_demand", "takes no command");
 }
 
-void nothing_is_lost_in_silence(void**) {
+TEST(nothing_is_lost_in_silence) {
   assert_refused("bus = \"mute\"", "stand_in.spool_feedback", "missing");
   assert_refused("bus = \"mute\"\nstand_in = {spool_feedback = \"command\"}", "stand_in.valve_echo",
                  "missing");
@@ -100,7 +100,7 @@ void nothing_is_lost_in_silence(void**) {
                  "stand_in.spool_feedback", "allowed: command");
 }
 
-void a_machine_may_have_no_such_sensor(void**) {
+TEST(a_machine_may_have_no_such_sensor) {
   const Read blind = read("sensors = {spool = false}\nstand_in = {spool_feedback = \"command\"}");
   assert_true(blind.errors.empty());
   assert_false(blind.bus.spool_feedback);
@@ -118,22 +118,20 @@ void a_machine_may_have_no_such_sensor(void**) {
   assert_refused("bus = \"mute\"\nsensors = {spool = true}", "stand_in.spool_feedback", "missing");
 }
 
-void nothing_stands_in_for_what_is_there(void**) {
+TEST(nothing_stands_in_for_what_is_there) {
   assert_refused("stand_in = {identity = \"profile\"}", "stand_in.identity", "carries it");
   assert_refused("stand_in = {engine = \"idle\"}", "stand_in.engine", "unknown");
 }
 
-void the_dead_time_covers_the_latency(void**) {
-  assert_refused("bus = \"slow\"", "bus", "dead time");
-}
+TEST(the_dead_time_covers_the_latency) { assert_refused("bus = \"slow\"", "bus", "dead time"); }
 
-void swing_and_imus_need_our_frames(void**) {
+TEST(swing_and_imus_need_our_frames) {
   assert_true(read("bus = \"foreign\"").errors.empty());
   assert_refused("bus = \"foreign\"\nvalve = {swing = {x = 1}}", "valve.swing", "no swing");
   assert_refused("bus = \"foreign\"\nimu = {x = 1}", "imu", "no IMUs");
 }
 
-void what_cannot_be_made_safe_is_refused(void**) {
+TEST(what_cannot_be_made_safe_is_refused) {
   assert_refused(
       "sensors = {spool = false, pressure = false}\n"
       "stand_in = {spool_feedback = \"command\", pressures = \"worst_load\"}",
@@ -142,18 +140,4 @@ void what_cannot_be_made_safe_is_refused(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(our_own_is_the_default),
-      cmocka_unit_test(another_name_is_refused_with_those_that_are_known),
-      cmocka_unit_test(what_is_lacking_has_its_stand_in),
-      cmocka_unit_test(pilots_stand_in_for_spools_and_the_profile_for_a_swash),
-      cmocka_unit_test(nothing_is_lost_in_silence),
-      cmocka_unit_test(what_cannot_be_made_safe_is_refused),
-      cmocka_unit_test(a_machine_may_have_no_such_sensor),
-      cmocka_unit_test(nothing_stands_in_for_what_is_there),
-      cmocka_unit_test(the_dead_time_covers_the_latency),
-      cmocka_unit_test(swing_and_imus_need_our_frames),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -29,7 +29,7 @@ void assert_all(const std::vector<std::pair<double, double>>& figures) {
 }
 
 /// The sources' figures (D37 description, Mononen and Mattila): none is thinned out.
-void the_sources_figures_arrive(void**) {
+TEST(the_sources_figures_arrive) {
   const DozerProfile& p = machine().profile;
   assert_all({{p.body.mass_kg, 8900.0},
               {p.body.pitch_inertia_kgm2, 12000.0},
@@ -90,7 +90,7 @@ void the_sources_figures_arrive(void**) {
 }
 
 /// What was chosen, found where controller and plant look for it.
-void chosen_figures_arrive_in_the_structs(void**) {
+TEST(chosen_figures_arrive_in_the_structs) {
   const DozerProfile& p = machine().profile;
   assert_near(p.implement.spool_to_duty.at(0.0), 0.2, 1e-12);
   assert_near(p.implement.spool_to_duty.at(1.0), 1.0, 1e-12);
@@ -136,7 +136,7 @@ void chosen_figures_arrive_in_the_structs(void**) {
               {p.safety.track_speed_tolerance_mps, 0.35}});
 }
 
-void the_plants_figures_arrive(void**) {
+TEST(the_plants_figures_arrive) {
   const plant::DozerPlantProfile& plant = machine().plant;
   assert_all({{plant.machine.body.mass_kg, 8900.0},
               {plant.blade_mass_kg, 950.0},
@@ -174,7 +174,7 @@ void the_plants_figures_arrive(void**) {
   assert_false(plant.sensor_errors);
 }
 
-void each_kind_is_known(void**) {
+TEST(each_kind_is_known) {
   using machines::MachineKind;
   using machines::profile_kind;
   assert_int_equal(profile_kind(machines::find_profile("dozer_9t")), MachineKind::kDozer);
@@ -206,7 +206,7 @@ std::vector<Drawn> drawn(std::uint64_t seed) {
 }
 
 /// 2000 draws fill each range, and never leave it; no efficiency is above 1.
-void draws_fill_their_ranges(void**) {
+TEST(draws_fill_their_ranges) {
   assert_all({{machine().experiment.uncertainty.mass, 0.10},
               {machine().experiment.uncertainty.friction, 0.10},
               {machine().experiment.uncertainty.efficiency, 0.10}});
@@ -226,7 +226,7 @@ void draws_fill_their_ranges(void**) {
 }
 
 /// Mass and inertia go together, each thing else by itself; the same seed draws the same.
-void draws_are_of_one_machine(void**) {
+TEST(draws_are_of_one_machine) {
   const plant::DozerPlantProfile plant = machines::draw_dozer(machine(), 7);
   const double heavier = plant.machine.body.mass_kg / 8900.0;
   assert_near(plant.pitch_inertia_kgm2, 12000.0 * heavier, 1e-9);
@@ -245,14 +245,4 @@ void draws_are_of_one_machine(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_sources_figures_arrive),
-      cmocka_unit_test(chosen_figures_arrive_in_the_structs),
-      cmocka_unit_test(the_plants_figures_arrive),
-      cmocka_unit_test(each_kind_is_known),
-      cmocka_unit_test(draws_fill_their_ranges),
-      cmocka_unit_test(draws_are_of_one_machine),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -21,7 +21,7 @@ const SimulatedDozer& nominal() {
   return machine;
 }
 
-void without_a_word_nothing_changes(void**) {
+TEST(without_a_word_nothing_changes) {
   const SimulatedDozer plain = arranged(nominal(), {});
   assert_int_equal(plain.profile.travel.policy, SpeedPolicy::kBounded);
   assert_near(plain.profile.travel.speed_desired_mps, 1.6, 0.0);
@@ -32,7 +32,7 @@ void without_a_word_nothing_changes(void**) {
 }
 
 /// Policy and speed are the controller's; nothing says that a slow operator is not obeyed.
-void speed_is_the_controllers(void**) {
+TEST(speed_is_the_controllers) {
   DozerScenario scenario;
   scenario.policy = SpeedPolicy::kConstant;
   scenario.speed_mps = 0.06;
@@ -44,7 +44,7 @@ void speed_is_the_controllers(void**) {
 }
 
 /// The throttle is the machine's: the controller has to measure it.
-void the_engine_is_the_machines(void**) {
+TEST(the_engine_is_the_machines) {
   DozerScenario scenario;
   scenario.engine_radps = 104.72;
   const SimulatedDozer machine = arranged(nominal(), scenario);
@@ -52,7 +52,7 @@ void the_engine_is_the_machines(void**) {
   assert_near(machine.profile.hst.engine_radps, 157.08, 0.0);
 }
 
-void the_ends_of_the_engines_range_are_in_it(void**) {
+TEST(the_ends_of_the_engines_range_are_in_it) {
   constexpr double kPerRpm = 3.14159265358979323846 / 30.0;
   for (const double rpm : {900.0, 2200.0}) {
     DozerScenario scenario;
@@ -62,7 +62,7 @@ void the_ends_of_the_engines_range_are_in_it(void**) {
 }
 
 /// The simulated ground is level: there is nothing to fill it with.
-void a_design_above_the_ground_is_refused(void**) {
+TEST(a_design_above_the_ground_is_refused) {
   SimulatedDozer machine = nominal();
   machine.profile.grade.plane_slope = 0.01;
   try {
@@ -73,7 +73,7 @@ void a_design_above_the_ground_is_refused(void**) {
   }
 }
 
-void an_engine_out_of_range_is_refused(void**) {
+TEST(an_engine_out_of_range_is_refused) {
   for (const double radps : {94.2, 230.4}) {
     DozerScenario scenario;
     scenario.engine_radps = radps;
@@ -87,7 +87,7 @@ void an_engine_out_of_range_is_refused(void**) {
 }
 
 /// A drawn machine, with the throttle where it was set; its controller takes it for the nominal.
-void errors_draw_the_machine_only(void**) {
+TEST(errors_draw_the_machine_only) {
   DozerScenario scenario;
   scenario.errors = true;
   scenario.seed = 5;
@@ -104,15 +104,4 @@ void errors_draw_the_machine_only(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(without_a_word_nothing_changes),
-      cmocka_unit_test(speed_is_the_controllers),
-      cmocka_unit_test(the_engine_is_the_machines),
-      cmocka_unit_test(the_ends_of_the_engines_range_are_in_it),
-      cmocka_unit_test(a_design_above_the_ground_is_refused),
-      cmocka_unit_test(an_engine_out_of_range_is_refused),
-      cmocka_unit_test(errors_draw_the_machine_only),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

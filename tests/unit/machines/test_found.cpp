@@ -100,7 +100,7 @@ std::vector<double> values(const plant::ExcavatorPlantProfile& plant) {
 }
 
 /// 200 seeds fill each range, never leave it, and no two figures go together.
-void each_figure_is_drawn_by_itself_within_its_range(void**) {
+TEST(each_figure_is_drawn_by_itself_within_its_range) {
   std::vector<std::vector<double>> share;  // Of its range, by figure and seed.
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const std::vector<Figure> found =
@@ -128,7 +128,7 @@ void each_figure_is_drawn_by_itself_within_its_range(void**) {
 }
 
 /// Inertia goes with its mass; the mass centre stays.
-void a_link_is_heavier_as_a_whole(void**) {
+TEST(a_link_is_heavier_as_a_whole) {
   const plant::ExcavatorPlantProfile plant = plant_of(Errors::kAll, 3);
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     const plant::LinkBody& exact = nominal().plant.link[i];
@@ -139,7 +139,7 @@ void a_link_is_heavier_as_a_whole(void**) {
 }
 
 /// What is in the bucket is no error of the bucket.
-void the_load_is_what_it_is(void**) {
+TEST(the_load_is_what_it_is) {
   Scenario scenario = with_errors(Errors::kAll, 3);
   const double empty_kg = arranged(nominal(), scenario).plant.link[kBucket].mass_kg;
   scenario.air = true;
@@ -148,7 +148,7 @@ void the_load_is_what_it_is(void**) {
 }
 
 /// Kim's errors are what they were before a machine could be found otherwise: figures of that time.
-void kims_errors_are_the_former_ones(void**) {
+TEST(kims_errors_are_the_former_ones) {
   static const SimulatedExcavator machine = shipped("excavator_22t");
   Scenario scenario = with_errors(Errors::kKim, 3);
   scenario.dead_time_s = 0.15;
@@ -160,7 +160,7 @@ void kims_errors_are_the_former_ones(void**) {
   assert_near(drawn.plant.dead_time[kArm].extend_s, 0.11002017947171526, 0.0);
 }
 
-void only_all_finds_a_machine(void**) {
+TEST(only_all_finds_a_machine) {
   for (const Errors errors :
        {Errors::kNone, Errors::kStrokeBias, Errors::kSensors, Errors::kParameters, Errors::kKim}) {
     assert_true(values(plant_of(errors, 3)) == values(nominal().plant));
@@ -189,7 +189,7 @@ std::vector<double> controller(const ExcavatorProfile& profile) {
   return all;
 }
 
-void the_controller_is_told_nothing(void**) {
+TEST(the_controller_is_told_nothing) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     Scenario told = with_errors(Errors::kAll, seed);
     told.found.opening_exponent = 1.0;
@@ -206,7 +206,7 @@ void the_controller_is_told_nothing(void**) {
 }
 
 /// The same seed draws the same, whatever else is switched on; another seed another.
-void what_is_switched_on_beside_it_changes_no_draw(void**) {
+TEST(what_is_switched_on_beside_it_changes_no_draw) {
   Scenario busy = with_errors(Errors::kAll, 9);
   busy.soil = true;
   busy.obstacle = true;
@@ -229,7 +229,7 @@ void what_is_switched_on_beside_it_changes_no_draw(void**) {
 }
 
 /// A machine with no swing drive finds the same of the rest.
-void a_swing_that_is_held_takes_no_draw_from_the_others(void**) {
+TEST(a_swing_that_is_held_takes_no_draw_from_the_others) {
   SimulatedExcavator held = nominal();
   held.profile.drive_count = kAxisCount;
   held.plant.machine.drive_count = kAxisCount;
@@ -237,7 +237,7 @@ void a_swing_that_is_held_takes_no_draw_from_the_others(void**) {
               values(plant_of(Errors::kAll, 4)));
 }
 
-void sides_of_a_spool_differ(void**) {
+TEST(sides_of_a_spool_differ) {
   const plant::ExcavatorPlantProfile plant = plant_of(Errors::kAll, 5);
   for (const plant::SpoolDynamics& spool : plant.spool) {
     assert_true(std::abs(spool.extend.deadband_ratio - spool.retract.deadband_ratio) > 1e-6);
@@ -245,7 +245,7 @@ void sides_of_a_spool_differ(void**) {
   }
 }
 
-void stiff_oil_stays_stiff(void**) {
+TEST(stiff_oil_stays_stiff) {
   Scenario scenario = with_errors(Errors::kAll, 5);
   scenario.stiff_oil = true;
   assert_near(arranged(nominal(), scenario).plant.bulk_modulus_pa, 1e10, 0.0);
@@ -259,7 +259,7 @@ void stiff_oil_stays_stiff(void**) {
 }
 
 /// What is told goes before what is drawn, with errors or without, and leaves the rest as it is.
-void what_is_told_goes_before_what_is_drawn(void**) {
+TEST(what_is_told_goes_before_what_is_drawn) {
   struct Told {
     std::optional<double> Found::*key;
     double value;
@@ -306,19 +306,4 @@ void what_is_told_goes_before_what_is_drawn(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(each_figure_is_drawn_by_itself_within_its_range),
-      cmocka_unit_test(a_link_is_heavier_as_a_whole),
-      cmocka_unit_test(the_load_is_what_it_is),
-      cmocka_unit_test(kims_errors_are_the_former_ones),
-      cmocka_unit_test(only_all_finds_a_machine),
-      cmocka_unit_test(the_controller_is_told_nothing),
-      cmocka_unit_test(what_is_switched_on_beside_it_changes_no_draw),
-      cmocka_unit_test(a_swing_that_is_held_takes_no_draw_from_the_others),
-      cmocka_unit_test(sides_of_a_spool_differ),
-      cmocka_unit_test(stiff_oil_stays_stiff),
-      cmocka_unit_test(what_is_told_goes_before_what_is_drawn),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

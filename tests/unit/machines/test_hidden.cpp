@@ -90,7 +90,7 @@ std::vector<Figure> figures(const plant::ExcavatorPlantProfile& plant) {
 
 /// The seeds fill each range and never leave it; no two figures go together but a drive's lag,
 /// which both of its sides have.
-void each_figure_fills_its_range_by_itself(void**) {
+TEST(each_figure_fills_its_range_by_itself) {
   std::vector<std::vector<double>> share;  // Of its range, by figure and seed.
   std::vector<std::string> name;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
@@ -131,7 +131,7 @@ std::vector<double> values(std::uint64_t seed) {
   return all;
 }
 
-void a_seed_is_a_machine(void**) {
+TEST(a_seed_is_a_machine) {
   const std::vector<double> once = values(7);
   const std::vector<double> other = values(8);
   assert_true(once == values(7));
@@ -141,14 +141,14 @@ void a_seed_is_a_machine(void**) {
 }
 
 /// Figures of the day on which it was written: machines with these seeds are spoken of in results.
-void a_seed_stays_the_machine_it_was(void**) {
+TEST(a_seed_stays_the_machine_it_was) {
   const MachineTruth truth = truth_of(hidden_machine(nominal(), 1).plant);
   assert_near(truth.drive[kBoom].extend.edge_ratio, 0.40003385602308816, 1e-12);
   assert_near(truth.drive[kSwing].retract.dead_time_s, 0.22816595979899298, 1e-12);
   assert_near(truth.drive[kArm].stroke_zero_m, -0.0019948988515888443, 1e-12);
 }
 
-void directions_and_drives_differ(void**) {
+TEST(directions_and_drives_differ) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const plant::ExcavatorPlantProfile plant = hidden_machine(nominal(), seed).plant;
     for (std::size_t i = 0; i < kDriveCount; ++i) {
@@ -175,7 +175,7 @@ void directions_and_drives_differ(void**) {
 
 /// Nothing that the controller knows, nor the plant's copy of it; and what is drawn beside it is
 /// drawn about the hidden machine.
-void only_the_plant_is_hidden(void**) {
+TEST(only_the_plant_is_hidden) {
   const SimulatedExcavator hidden = hidden_machine(nominal(), 3);
   assert_int_equal(hidden.hash, nominal().hash);
   for (const ExcavatorProfile* profile : {&hidden.profile, &hidden.plant.machine}) {
@@ -199,7 +199,7 @@ void only_the_plant_is_hidden(void**) {
 }
 
 /// The truth's curve is what a spool of the plant opens, and its two ways to tell a delay agree.
-void truth_is_what_the_plant_does(void**) {
+TEST(truth_is_what_the_plant_does) {
   const plant::ExcavatorPlantProfile plant = hidden_machine(nominal(), 4).plant;
   const MachineTruth truth = truth_of(plant);
   for (std::size_t i = 0; i < kDriveCount; ++i) {
@@ -228,14 +228,4 @@ void truth_is_what_the_plant_does(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(each_figure_fills_its_range_by_itself),
-      cmocka_unit_test(a_seed_is_a_machine),
-      cmocka_unit_test(a_seed_stays_the_machine_it_was),
-      cmocka_unit_test(directions_and_drives_differ),
-      cmocka_unit_test(only_the_plant_is_hidden),
-      cmocka_unit_test(truth_is_what_the_plant_does),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -16,7 +16,7 @@ const machines::SimulatedExcavator& machine() {
 }
 
 /// Figures that stand in the file once, found where the core looks for them.
-void figures_arrive_in_the_structs(void**) {
+TEST(figures_arrive_in_the_structs) {
   const ExcavatorProfile& profile = machine().profile;
   assert_near(profile.geometry.boom_length_m, 5.70, 0.0);
   assert_int_equal(profile.geometry.cylinder[kBoom].count, 2);
@@ -59,7 +59,7 @@ void figures_arrive_in_the_structs(void**) {
 }
 
 /// One pump for all three, and pins from the angles of (6): 28.208 and 44.714 deg.
-void the_12_t_machine(void**) {
+TEST(the_12_t_machine) {
   const machines::SimulatedExcavator small =
       machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
   const ExcavatorProfile& profile = small.profile;
@@ -89,13 +89,13 @@ void the_12_t_machine(void**) {
 }
 
 /// Two boom cylinders of 120 mm bore and 85 mm rod, by hand: 2 pi/4 d^2.
-void piston_areas(void**) {
+TEST(piston_areas) {
   const CylinderGeometry& boom = machine().profile.geometry.cylinder[kBoom];
   assert_near(boom.cap_area_m2(), 0.0226195, 1e-7);
   assert_near(boom.rod_area_m2(), 0.0112705, 1e-7);
 }
 
-void a_missing_profile_says_where_it_looked(void**) {
+TEST(a_missing_profile_says_where_it_looked) {
   try {
     static_cast<void>(machines::find_profile("no_such_machine"));
     fail_msg("found a profile that is not there");
@@ -106,12 +106,4 @@ void a_missing_profile_says_where_it_looked(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(figures_arrive_in_the_structs),
-      cmocka_unit_test(the_12_t_machine),
-      cmocka_unit_test(piston_areas),
-      cmocka_unit_test(a_missing_profile_says_where_it_looked),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

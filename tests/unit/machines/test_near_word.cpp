@@ -13,7 +13,7 @@ using graben::machines::near_word_hint;
 const std::vector<std::string> kWords = {"dig",    "grade",   "autodig",
                                          "--seed", "--speed", "identify"};
 
-void test_slips(void** /*state*/) {
+TEST(test_slips) {
   assert_string_equal(near_word("dgi", kWords).c_str(), "dig");
   assert_string_equal(near_word("garde", kWords).c_str(), "grade");
   assert_string_equal(near_word("autodi", kWords).c_str(), "autodig");
@@ -23,7 +23,7 @@ void test_slips(void** /*state*/) {
   assert_string_equal(near_word_hint("grad", kWords).c_str(), "; did you mean 'grade'?");
 }
 
-void test_nothing_is_near(void** /*state*/) {
+TEST(test_nothing_is_near) {
   for (const char* word : {"", "x", "xy", "solve", "completely"}) {
     assert_string_equal(near_word(word, kWords).c_str(), "");
     assert_string_equal(near_word_hint(word, kWords).c_str(), "");
@@ -33,7 +33,4 @@ void test_nothing_is_near(void** /*state*/) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_slips), cmocka_unit_test(test_nothing_is_near)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

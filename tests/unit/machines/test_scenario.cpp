@@ -64,7 +64,7 @@ Scenario with_errors(Errors errors, std::uint64_t seed) {
 }
 
 /// 2000 draws fill each parameter's range and never leave it; drain stays under check.
-void draws_fill_their_ranges(void**) {
+TEST(draws_fill_their_ranges) {
   const std::vector<double> exact = parameters(nominal().profile);
   const std::vector<double> bound = bounds();
   std::vector<double> least(exact.size(), 1.0);
@@ -91,7 +91,7 @@ void draws_fill_their_ranges(void**) {
 }
 
 /// The plant is what it was; only the controller's figures move, and only with parameter errors.
-void only_the_controller_errs(void**) {
+TEST(only_the_controller_errs) {
   const std::vector<double> exact = parameters(nominal().profile);
   for (const Errors errors : {Errors::kNone, Errors::kStrokeBias, Errors::kSensors}) {
     assert_true(parameters(arranged(nominal(), with_errors(errors, 3)).profile) == exact);
@@ -103,7 +103,7 @@ void only_the_controller_errs(void**) {
 }
 
 /// The same seed draws the same, whatever else is switched on; another seed another.
-void what_is_switched_on_beside_it_changes_no_draw(void**) {
+TEST(what_is_switched_on_beside_it_changes_no_draw) {
   Scenario busy = with_errors(Errors::kKim, 9);
   busy.soil = true;
   busy.obstacle = true;
@@ -119,7 +119,7 @@ void what_is_switched_on_beside_it_changes_no_draw(void**) {
 
 /// The swing's section is drawn where there is one, after the others; where there is none it takes
 /// no draw from what comes after it.
-void swing_is_drawn_where_it_is_driven(void**) {
+TEST(swing_is_drawn_where_it_is_driven) {
   const SimulatedExcavator driven =
       machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
   SimulatedExcavator held = driven;
@@ -137,7 +137,7 @@ void swing_is_drawn_where_it_is_driven(void**) {
   assert_true(of_held.pump[0].leak_linear != of_driven.pump[0].leak_linear);
 }
 
-void each_switch_does_its_part(void**) {
+TEST(each_switch_does_its_part) {
   const SimulatedExcavator plain = arranged(nominal(), {});
   assert_false(plain.plant.soil.has_value() || plain.plant.obstacle.has_value());
   assert_false(plain.plant.sensor_errors);
@@ -172,7 +172,7 @@ void each_switch_does_its_part(void**) {
 }
 
 /// Two point masses and a body: the same kinetic and potential quantities as by hand.
-void a_payload_adds_to_the_bucket(void**) {
+TEST(a_payload_adds_to_the_bucket) {
   Scenario up;
   up.air = true;
   const plant::LinkBody empty = nominal().plant.link[kBucket];
@@ -190,7 +190,7 @@ void a_payload_adds_to_the_bucket(void**) {
 }
 
 /// Ground to dig in: its kind as it is, or drawn about it where nothing is known for sure.
-void soil_is_laid_and_drawn(void**) {
+TEST(soil_is_laid_and_drawn) {
   assert_false(arranged(nominal(), {}).plant.digging.has_value());
   Scenario scenario;
   scenario.ground = "loam";
@@ -231,15 +231,4 @@ void soil_is_laid_and_drawn(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(draws_fill_their_ranges),
-      cmocka_unit_test(only_the_controller_errs),
-      cmocka_unit_test(what_is_switched_on_beside_it_changes_no_draw),
-      cmocka_unit_test(swing_is_drawn_where_it_is_driven),
-      cmocka_unit_test(each_switch_does_its_part),
-      cmocka_unit_test(a_payload_adds_to_the_bucket),
-      cmocka_unit_test(soil_is_laid_and_drawn),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -78,7 +78,7 @@ void says(const std::string& error, std::initializer_list<const char*> needles) 
 }
 
 /// Each key goes where it belongs; what is not told is the named machine's.
-void a_file_says_what_differs(void**) {
+TEST(a_file_says_what_differs) {
   const Folder folder;
   const SimulatedExcavator machine = machines::load_simulation(folder.write("mine.sim.toml", R"(
 machine = "excavator_22t"
@@ -130,7 +130,7 @@ pressure_zero = { arm = [1.0e6, -1.0e6] }
 }
 
 /// A file beside goes before a shipped one of that name.
-void a_machine_may_lie_beside(void**) {
+TEST(a_machine_may_lie_beside) {
   const Folder folder;
   static_cast<void>(folder.write("big.toml", text_of(shipped("excavator_22t"))));
   static_cast<void>(folder.write(
@@ -143,7 +143,7 @@ void a_machine_may_lie_beside(void**) {
 }
 
 /// The file, the key and its line; the named machine's own errors are its own file's.
-void what_is_wrong_is_told_where_it_is(void**) {
+TEST(what_is_wrong_is_told_where_it_is) {
   const Folder folder;
   const auto error = [&folder](const std::string& text) {
     return error_of([&] { return machines::load_simulation(folder.write("mine.sim.toml", text)); });
@@ -171,7 +171,7 @@ void what_is_wrong_is_told_where_it_is(void**) {
 }
 
 /// An identified profile: the controller's figures are its own, the plant's those of the machine.
-void a_profile_does_not_change_the_machine_that_it_is_put_in(void**) {
+TEST(a_profile_does_not_change_the_machine_that_it_is_put_in) {
   const Folder folder;
   const fs::path profile = folder.write(
       "better.toml",
@@ -193,7 +193,7 @@ void a_profile_does_not_change_the_machine_that_it_is_put_in(void**) {
   assert_near(beside.plant.machine.valve.spool[kBoom].extend_in_m2, 1.50e-4, 0.0);
 }
 
-void a_hidden_machine_is_put_in_by_its_seed(void**) {
+TEST(a_hidden_machine_is_put_in_by_its_seed) {
   SimulatedChoice choice;
   assert_true(choice.is_own());
   choice.hidden = 7;
@@ -209,7 +209,7 @@ void a_hidden_machine_is_put_in_by_its_seed(void**) {
       "excavator_22t_found hidden 7");
 }
 
-void a_machine_with_other_drives_is_refused(void**) {
+TEST(a_machine_with_other_drives_is_refused) {
   SimulatedChoice choice;
   choice.name = "excavator_22t_found";
   says(error_of(
@@ -223,7 +223,7 @@ void a_machine_with_other_drives_is_refused(void**) {
 }
 
 /// By path, by shipped name, by the profile beside it.
-void a_simulation_is_found(void**) {
+TEST(a_simulation_is_found) {
   const fs::path file = machines::find_simulation("excavator_22t_found");
   assert_true(machines::is_simulation_file(file));
   assert_true(machines::find_simulation(file.string()) == file);
@@ -232,7 +232,7 @@ void a_simulation_is_found(void**) {
 }
 
 /// What the file of the found machine promises in its comment.
-void the_found_machine_is_as_measured(void**) {
+TEST(the_found_machine_is_as_measured) {
   const SimulatedExcavator found =
       machines::load_simulation(machines::find_simulation("excavator_22t_found"));
   for (std::size_t i = 0; i < kAxisCount; ++i) {
@@ -252,16 +252,4 @@ void the_found_machine_is_as_measured(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_file_says_what_differs),
-      cmocka_unit_test(a_machine_may_lie_beside),
-      cmocka_unit_test(what_is_wrong_is_told_where_it_is),
-      cmocka_unit_test(a_profile_does_not_change_the_machine_that_it_is_put_in),
-      cmocka_unit_test(a_hidden_machine_is_put_in_by_its_seed),
-      cmocka_unit_test(a_machine_with_other_drives_is_refused),
-      cmocka_unit_test(a_simulation_is_found),
-      cmocka_unit_test(the_found_machine_is_as_measured),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -83,7 +83,7 @@ void slopes(Bus& bus, const dbc::Payload& arm) {
   bus.pass();
 }
 
-void slopes_become_joint_angles(void**) {
+TEST(slopes_become_joint_angles) {
   Bus bus("slopes");
   assert_true(bus.file.capabilities.joint_angles);
   bus.take(0x0CF029E2, 8, kLevel);
@@ -101,7 +101,7 @@ void slopes_become_joint_angles(void**) {
 }
 
 /// The shorter way round, and the one turn that a joint can have.
-void a_slope_goes_over_the_top(void**) {
+TEST(a_slope_goes_over_the_top) {
   Bus bus("slopes");
   slopes(bus, pitched(8192000 - 60 * 32768));
   for (const int degree : {-173, -176, -179, 178, 175}) {
@@ -116,7 +116,7 @@ void a_slope_goes_over_the_top(void**) {
 }
 
 /// FE and FF in the top byte, 1 degraded and 2 error in the figure of merit, 125 ms of latency.
-void a_slope_that_says_it_is_none(void**) {
+TEST(a_slope_that_says_it_is_none) {
   const dbc::Payload good = pitched(8192000 - 60 * 32768);
   const auto with = [&good](std::size_t byte, std::uint8_t value) {
     dbc::Payload data = good;
@@ -145,7 +145,7 @@ void a_slope_that_says_it_is_none(void**) {
 
 /// A position as Pepperl+Fuchs prints one, 7200 steps: 20 1C 00 00 (Absolute Rotary Encoder,
 /// CANopen manual 2017-04, table 7.10), under the identifier that CiA 301 gives TPDO1.
-void an_encoders_position(void**) {
+TEST(an_encoders_position) {
   Bus bus("encoders");
   bus.take(0x701, 1, {0x05});
   bus.take(0x181, 4, {0x20, 0x1C, 0x00, 0x00});
@@ -157,7 +157,7 @@ void an_encoders_position(void**) {
 }
 
 /// Integer 16, 0.01 degree a step: SICK TMM61 operating instructions, table 35; two's complement.
-void an_inclinometers_slope(void**) {
+TEST(an_inclinometers_slope) {
   Bus bus("inclinometers");
   for (unsigned node = 17; node <= 20; ++node) {
     bus.take(0x700 + node, 1, {0x05});
@@ -175,7 +175,7 @@ void an_inclinometers_slope(void**) {
 /// ISO 11783-7, B.13 and A.21.10 to A.21.12: flow 0.4 % a step in byte 1; in byte 3 the state, 0
 /// block, 1 extend, 2 retract, in bits 1 to 4, bits 5 and 6 reserved, the fail-safe mode, 0 block,
 /// in bits 7 and 8; all else reserved, which is 1.
-void an_auxiliary_valves_command(void**) {
+TEST(an_auxiliary_valves_command) {
   Bus bus("aux_valves");
   const auto assert_sent = [&bus](double duty_ratio, std::uint8_t flow, std::uint8_t third) {
     bus.outputs.duty_ratio[1] = duty_ratio;
@@ -192,7 +192,7 @@ void an_auxiliary_valves_command(void**) {
   assert_sent(-0.2, 50, 0x32);
 }
 
-void a_solenoids_current(void**) {
+TEST(a_solenoids_current) {
   Bus bus("valve_driver");
   const auto assert_sent = [&bus](double duty_ratio, unsigned extend_ma, unsigned retract_ma) {
     bus.outputs.duty_ratio[0] = duty_ratio;
@@ -210,7 +210,7 @@ void a_solenoids_current(void**) {
   assert_sent(-1.0, 0, 750);
 }
 
-void a_retrofit_is_complete(void**) {
+TEST(a_retrofit_is_complete) {
   Bus bus("retrofit");
   assert_int_equal(bus.file.table.bus_count, 2);
   assert_false(bus.file.table.own_frames);
@@ -227,12 +227,4 @@ void a_retrofit_is_complete(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(slopes_become_joint_angles),   cmocka_unit_test(a_slope_goes_over_the_top),
-      cmocka_unit_test(a_slope_that_says_it_is_none), cmocka_unit_test(an_encoders_position),
-      cmocka_unit_test(an_inclinometers_slope),       cmocka_unit_test(an_auxiliary_valves_command),
-      cmocka_unit_test(a_solenoids_current),          cmocka_unit_test(a_retrofit_is_complete),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -41,9 +41,9 @@ void assert_says(const std::string& errors, const std::string& what) {
   }
 }
 
-void none_is_a_book_too(void**) { assert_int_equal(book({}).count, 0); }
+TEST(none_is_a_book_too) { assert_int_equal(book({}).count, 0); }
 
-void numbered_as_they_are_told(void**) {
+TEST(numbered_as_they_are_told) {
   const TaskBook both = book({"truck_by_steps", "flatten.toml"});
   assert_int_equal(both.count, 2);
   assert_int_equal(both.program[0].step_count, 5);
@@ -53,11 +53,11 @@ void numbered_as_they_are_told(void**) {
   assert_near(both.program[1].step[0].duration_s(), 18.4, 1e-9);
 }
 
-void a_file_is_found_without_a_folder(void**) {
+TEST(a_file_is_found_without_a_folder) {
   assert_int_equal(book({(shipped() / "flatten.toml").string()}).count, 1);
 }
 
-void every_error_is_told(void**) {
+TEST(every_error_is_told) {
   // A profile is TOML, but no task.
   const std::string profile_file = machines::find_profile("excavator_12t").string();
   const std::string errors = errors_of({"missing", "flatten", profile_file, "gone"});
@@ -68,20 +68,11 @@ void every_error_is_told(void**) {
   assert_says(errors, "'gone': there is no such file");
 }
 
-void five_are_too_many(void**) {
+TEST(five_are_too_many) {
   assert_int_equal(book({"flatten", "flatten", "flatten", "flatten"}).count, 4);
   assert_says(errors_of({"flatten", "flatten", "flatten", "flatten", "flatten"}), "at most 4");
 }
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(none_is_a_book_too),
-      cmocka_unit_test(numbered_as_they_are_told),
-      cmocka_unit_test(a_file_is_found_without_a_folder),
-      cmocka_unit_test(every_error_is_told),
-      cmocka_unit_test(five_are_too_many),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -11,7 +11,7 @@ namespace {
 using namespace graben;
 using namespace graben::test;
 
-void the_paper_s_line(void**) {
+TEST(the_paper_s_line) {
   const machines::TaskFile task =
       machines::load_task(machines::find_task("flatten"), profile("excavator_12t"));
   assert_string_equal(task.name.c_str(), "flatten");
@@ -24,7 +24,7 @@ void the_paper_s_line(void**) {
   assert_near(program.step[0].line.way_m, 3.7304, 1e-4);
 }
 
-void loading_a_truck(void**) {
+TEST(loading_a_truck) {
   const machines::TaskFile task =
       machines::load_task(machines::find_task("truck_by_steps"), profile("excavator_12t"));
   const TaskProgram& program = task.result.program;
@@ -52,7 +52,7 @@ void loading_a_truck(void**) {
 }
 
 /// Everything that is wrong at once, each with key, line, value, unit and what is allowed.
-void every_error_is_listed(void**) {
+TEST(every_error_is_listed) {
   const std::string errors = errors_of(
       "start = { position = [7.0, 0.0], attitude = 9.0 }\n"
       "repeat = 1\n"
@@ -110,7 +110,7 @@ const char* const kKeepOuts =
     "radius = 0.3\n"
     "heights = [0.0, 4.0]\n";
 
-void boxes_and_cylinders_are_kept_out_of(void**) {
+TEST(boxes_and_cylinders_are_kept_out_of) {
   const Written file(kKeepOuts);
   const FenceSet fences = machines::load_task(file.path(), profile("excavator_12t")).request.fences;
   assert_int_equal(fences.count, 2);
@@ -137,7 +137,7 @@ void boxes_and_cylinders_are_kept_out_of(void**) {
 }
 
 /// A pace on a line, a speed on a move of the drives: keys that nothing asks for.
-void a_pace_of_the_other_form_is_unknown(void**) {
+TEST(a_pace_of_the_other_form_is_unknown) {
   assert_says(errors_of(edited("flatten", "duration = 18.4", "pace = 0.5")),
               "step[0].pace (line 9): unknown key");
   assert_says(errors_of(edited("flatten", "duration = 18.4", "path = \"drives\"\nspeed = 0.5")),
@@ -148,7 +148,7 @@ void a_pace_of_the_other_form_is_unknown(void**) {
 }
 
 /// What can't be planned says which step, what is in the way and where.
-void refusals_name_step_joint_and_place(void**) {
+TEST(refusals_name_step_joint_and_place) {
   assert_says(
       errors_of(edited("flatten", "[2.244, 3.886, 0.0]", "[9.0, 3.886, 0.0]")),
       "step[0] (line 6): step 0 (dig): the arm cylinder would have to go beyond its closed end");
@@ -212,7 +212,7 @@ std::string rounds_with(const std::string& from, const std::string& to) {
   return errors_of(rounds_text(from, to));
 }
 
-void steps_end_early_and_rounds_repeat(void**) {
+TEST(steps_end_early_and_rounds_repeat) {
   const Written file(kRounds);
   const TaskProgram program =
       machines::load_task(file.path(), profile("excavator_12t")).result.program;
@@ -235,7 +235,7 @@ void steps_end_early_and_rounds_repeat(void**) {
 }
 
 /// Each with its place and what is allowed.
-void what_ends_a_step_or_a_round_is_checked(void**) {
+TEST(what_ends_a_step_or_a_round_is_checked) {
   const std::string depth = "depth = 0.1";
   assert_says(rounds_with(depth, "depth = 0.01"),
               "step[0].until.depth (line 8): 0.01 is out of range; allowed: 0.02 .. 8 m");
@@ -286,7 +286,7 @@ void what_ends_a_step_or_a_round_is_checked(void**) {
   }
 }
 
-void a_missing_task_says_where_it_looked(void**) {
+TEST(a_missing_task_says_where_it_looked) {
   try {
     static_cast<void>(machines::find_task("no_such_task"));
     fail_msg("found a task that is not there");
@@ -297,17 +297,4 @@ void a_missing_task_says_where_it_looked(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_paper_s_line),
-      cmocka_unit_test(loading_a_truck),
-      cmocka_unit_test(every_error_is_listed),
-      cmocka_unit_test(boxes_and_cylinders_are_kept_out_of),
-      cmocka_unit_test(a_pace_of_the_other_form_is_unknown),
-      cmocka_unit_test(refusals_name_step_joint_and_place),
-      cmocka_unit_test(steps_end_early_and_rounds_repeat),
-      cmocka_unit_test(what_ends_a_step_or_a_round_is_checked),
-      cmocka_unit_test(a_missing_task_says_where_it_looked),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -8,7 +8,7 @@ namespace {
 using namespace graben::test;
 
 /// One error, and no followers of what it has left unread.
-void what_is_no_table_is_said_once(void**) {
+TEST(what_is_no_table_is_said_once) {
   const auto says_only = [](const std::string& text, const char* what) {
     assert_string_equal(errors_of(text).c_str(), what);
   };
@@ -20,7 +20,7 @@ void what_is_no_table_is_said_once(void**) {
   says_only("fence = [1, 2]\n" + flatten, "fence (line 1): must be 1 to 8 tables; there are 0\n");
 }
 
-void an_area_s_errors_name_its_table(void**) {
+TEST(an_area_s_errors_name_its_table) {
   const auto with = [](const char* keys) {
     return errors_of(std::string("area = { kind = \"level\", near = 4.4, ") + keys + " }\n");
   };
@@ -35,10 +35,4 @@ void an_area_s_errors_name_its_table(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_no_table_is_said_once),
-      cmocka_unit_test(an_area_s_errors_name_its_table),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -30,7 +30,7 @@ std::complex<double> open_loop(const TunedControl& control, double dead_time_s, 
 }
 
 /// The shipped machine is as it was tuned by hand.
-void the_shipped_machine_keeps_its_values(void**) {
+TEST(the_shipped_machine_keeps_its_values) {
   const ExcavatorProfile profile =
       machines::load_excavator(machines::find_profile("excavator_22t")).profile;
   assert_near(machines::latest_answer_s(profile), 0.053, 1e-12);
@@ -44,7 +44,7 @@ void the_shipped_machine_keeps_its_values(void**) {
 }
 
 /// Of all sides the latest one counts, by dead time and lag together.
-void the_latest_side_counts(void**) {
+TEST(the_latest_side_counts) {
   ExcavatorProfile profile =
       machines::load_excavator(machines::find_profile("excavator_22t")).profile;
   SaidAnswers& arm = profile.valve.answer[kArm];
@@ -57,7 +57,7 @@ void the_latest_side_counts(void**) {
 
 /// However dead time and lag share it: a disk around -1 of a half stays free, so that a mode of the
 /// oil or a dead time that is off by a fifth does not make the loop ring.
-void no_lateness_rings(void**) {
+TEST(no_lateness_rings) {
   for (const double mode_hz : {1.5, 2.5, 4.0}) {
     for (double late_s = 0.02; late_s < 0.65; late_s += 0.01) {
       const TunedControl control = tuned_control(late_s, mode_hz, 0.6);
@@ -73,7 +73,7 @@ void no_lateness_rings(void**) {
 }
 
 /// The later, the calmer; at once at no place.
-void what_is_later_is_calmer(void**) {
+TEST(what_is_later_is_calmer) {
   TunedControl last = tuned_control(0.001, 2.5, 0.3);
   for (double late_s = 0.002; late_s < 0.7; late_s += 0.001) {
     const TunedControl next = tuned_control(late_s, 2.5, 0.3);
@@ -94,12 +94,4 @@ void what_is_later_is_calmer(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_shipped_machine_keeps_its_values),
-      cmocka_unit_test(the_latest_side_counts),
-      cmocka_unit_test(no_lateness_rings),
-      cmocka_unit_test(what_is_later_is_calmer),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

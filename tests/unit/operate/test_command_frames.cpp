@@ -30,7 +30,7 @@ Request full_request() {
   return request;
 }
 
-void what_is_asked_is_said(void**) {
+TEST(what_is_asked_is_said) {
   CommandFrames frames;
   const CommandPair pair = frames.next(full_request(), kEcho, 0);
   assert_int_equal(pair[0].id, 0x0CFF2781);
@@ -49,7 +49,7 @@ void what_is_asked_is_said(void**) {
   assert_true(axes.swing_ratio.state == RawState::kValid);
 }
 
-void the_default_asks_for_nothing(void**) {
+TEST(the_default_asks_for_nothing) {
   CommandFrames frames;
   const CommandPair pair = frames.next({}, kEcho, 0);
   const Command command = Command::decode(pair[0].data);
@@ -72,7 +72,7 @@ struct Receiver {
   }
 };
 
-void a_receiver_accepts_them(void**) {
+TEST(a_receiver_accepts_them) {
   CommandFrames frames;
   Receiver command = {message_rule<Command>(nullptr), {}};
   Receiver axes = {message_rule<AxesMessage>(nullptr), {}};
@@ -88,7 +88,7 @@ void a_receiver_accepts_them(void**) {
   assert_int_equal(axes.accepted, kFrames - 2);
 }
 
-void last_words_fit_and_change_nothing(void**) {
+TEST(last_words_fit_and_change_nothing) {
   CommandFrames frames;
   Receiver command = {message_rule<Command>(nullptr), {}};
   TimeUs now = 0;
@@ -106,12 +106,4 @@ void last_words_fit_and_change_nothing(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_asked_is_said),
-      cmocka_unit_test(the_default_asks_for_nothing),
-      cmocka_unit_test(a_receiver_accepts_them),
-      cmocka_unit_test(last_words_fit_and_change_nothing),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

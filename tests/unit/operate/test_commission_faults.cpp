@@ -110,7 +110,7 @@ void try_rows(const std::vector<Row>& rows, const std::vector<int>& axes) {
   }
 }
 
-void valves_and_sensors_the_wrong_way(void**) {
+TEST(valves_and_sensors_the_wrong_way) {
   const std::vector<Row> rows = {
       {"reversed valve",
        true,
@@ -135,7 +135,7 @@ void valves_and_sensors_the_wrong_way(void**) {
   try_rows({rows[1]}, {kBoom, kArm});
 }
 
-void spools_that_hang(void**) {
+TEST(spools_that_hang) {
   const std::vector<Row> rows = {
       {"spool held open",
        false,
@@ -151,7 +151,7 @@ void spools_that_hang(void**) {
 }
 
 /// Of a drive whose sensor stands from the start nothing tells that it moves but its pressures.
-void a_stuck_stroke_sensor(void**) {
+TEST(a_stuck_stroke_sensor) {
   constexpr double kUnseen_m = 0.10;
   for (const machines::SimulatedExcavator& machine : machines_to_try()) {
     for (const int axis : {kBoom, kArm, kBucket}) {
@@ -175,7 +175,7 @@ void a_stuck_stroke_sensor(void**) {
   }
 }
 
-void engine_and_bus_that_go(void**) {
+TEST(engine_and_bus_that_go) {
   const std::vector<Row> rows = {
       {"engine stops",
        false,
@@ -222,7 +222,7 @@ void engine_and_bus_that_go(void**) {
 }
 
 /// Nothing of what is tried goes by which is which: it ends well, or stops.
-void swapped_pressures(void**) {
+TEST(swapped_pressures) {
   for (const machines::SimulatedExcavator& machine : machines_to_try()) {
     for (const int axis : {kBoom, kArm, kBucket}) {
       const SequenceOptions options = test::one_drive(machine, axis);
@@ -250,7 +250,7 @@ void swapped_pressures(void**) {
 }
 
 /// Held by more than its pump can give; freed, the rest is done.
-void a_blocked_cylinder(void**) {
+TEST(a_blocked_cylinder) {
   const machines::SimulatedExcavator& sound = test::excavator();
   const SequenceOptions options = test::one_drive(sound, kArm);
   machines::SimulatedExcavator machine = sound;
@@ -273,7 +273,7 @@ void a_blocked_cylinder(void**) {
 }
 
 /// Two of one address: no frame of either can be told from the other's.
-void a_second_station(void**) {
+TEST(a_second_station) {
   const machines::SimulatedExcavator& machine = test::excavator();
   CommissionBench bench(machine, test::one_drive(machine, kArm));
   bench.begin_watch();
@@ -291,7 +291,7 @@ void a_second_station(void**) {
 }
 
 /// A controller without a window holds the drive: no step is taken for one that did not move.
-void windows_that_do_not_arrive(void**) {
+TEST(windows_that_do_not_arrive) {
   const machines::SimulatedExcavator& machine = test::excavator();
   const SequenceOptions options = test::one_drive(machine, kArm);
   CommissionBench bench(machine, options);
@@ -313,7 +313,7 @@ void windows_that_do_not_arrive(void**) {
 }
 
 /// A speed that the machine does not keep: the ramp's own is more.
-void over_speed(void**) {
+TEST(over_speed) {
   const machines::SimulatedExcavator& machine = test::excavator();
   SequenceOptions options = test::one_drive(machine, kArm);
   options.window[kArm].most_mps = 0.015;
@@ -340,7 +340,7 @@ void let_go_for_a_second(CommissionBench& bench) {
 }
 
 /// In every kind of step: neutral at once, nothing is lost, and the step begins again.
-void the_operator_lets_go_in_every_step(void**) {
+TEST(the_operator_lets_go_in_every_step) {
   const machines::SimulatedExcavator& machine = test::excavator();
   SequenceOptions options = test::one_drive(machine, kBucket);
   options.steps = true;
@@ -370,18 +370,4 @@ void the_operator_lets_go_in_every_step(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(valves_and_sensors_the_wrong_way),
-      cmocka_unit_test(spools_that_hang),
-      cmocka_unit_test(a_stuck_stroke_sensor),
-      cmocka_unit_test(engine_and_bus_that_go),
-      cmocka_unit_test(swapped_pressures),
-      cmocka_unit_test(a_blocked_cylinder),
-      cmocka_unit_test(a_second_station),
-      cmocka_unit_test(windows_that_do_not_arrive),
-      cmocka_unit_test(over_speed),
-      cmocka_unit_test(the_operator_lets_go_in_every_step),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

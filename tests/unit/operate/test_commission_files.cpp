@@ -50,7 +50,7 @@ bool says(const std::string& text, const char* words) {
   return text.find(words) != std::string::npos;
 }
 
-void windows_of_a_file(void**) {
+TEST(windows_of_a_file) {
   const Folder folder;
   SequenceOptions options = whole();
   options.drives = {true, false, false};
@@ -71,7 +71,7 @@ void windows_of_a_file(void**) {
   assert_true(says(bad("[boom]\nleast = 0.1\nmost = 1.0\nspeed = 0.3\n"), "arm.least"));
 }
 
-void windows_by_questions(void**) {
+TEST(windows_by_questions) {
   SequenceOptions options = whole();
   options.drives = {true, false, true};
   // Both ends of the boom are refused, its first window is none; the bucket as it is proposed.
@@ -106,7 +106,7 @@ commission::Progress some() {
   return progress;
 }
 
-void progress_comes_back(void**) {
+TEST(progress_comes_back) {
   const Folder folder;
   const fs::path file = progress_file(folder.path / "drive.log");
   assert_string_equal(file.filename().c_str(), "drive.log.progress.json");
@@ -121,7 +121,7 @@ void progress_comes_back(void**) {
   require_same_windows(before.options, after.options);
 }
 
-void progress_of_something_else_is_refused(void**) {
+TEST(progress_of_something_else_is_refused) {
   const Folder folder;
   const fs::path file = folder.path / "progress";
   const auto read = [&] {
@@ -145,7 +145,7 @@ void progress_of_something_else_is_refused(void**) {
   assert_true(refusal(same).empty());
 }
 
-void what_goes_wrong_has_a_word(void**) {
+TEST(what_goes_wrong_has_a_word) {
   const SequenceStep ramp = {commission::StepKind::kRamp, kBoom, 1};
   const std::array<double, kAxisCount> begin = {0.7, 0.7, 0.5};
   assert_false(look_for_wrong_way(ramp, begin, {0.75, 0.705, 0.5}, {0.1, 0.02, 0.0}).has_value());
@@ -163,13 +163,4 @@ void what_goes_wrong_has_a_word(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(windows_of_a_file),
-      cmocka_unit_test(windows_by_questions),
-      cmocka_unit_test(progress_comes_back),
-      cmocka_unit_test(progress_of_something_else_is_refused),
-      cmocka_unit_test(what_goes_wrong_has_a_word),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -21,7 +21,7 @@ constexpr std::array<Trouble, 7> kTroubles = {
 bool press(Deadman& deadman) { return deadman.step(true, true, Trouble::kNone); }
 bool release(Deadman& deadman) { return deadman.step(false, true, Trouble::kNone); }
 
-void it_is_on_from_press_to_release(void**) {
+TEST(it_is_on_from_press_to_release) {
   Deadman deadman;
   assert_false(release(deadman));
   assert_true(press(deadman));
@@ -32,7 +32,7 @@ void it_is_on_from_press_to_release(void**) {
   assert_true(press(deadman));
 }
 
-void held_from_the_start_it_does_not_count(void**) {
+TEST(held_from_the_start_it_does_not_count) {
   Deadman deadman;
   assert_false(press(deadman));
   assert_true(deadman.trouble() == Trouble::kStart);
@@ -42,7 +42,7 @@ void held_from_the_start_it_does_not_count(void**) {
   assert_true(press(deadman));
 }
 
-void pressed_with_a_lever_off_its_middle_it_does_not_count(void**) {
+TEST(pressed_with_a_lever_off_its_middle_it_does_not_count) {
   Deadman deadman;
   assert_false(release(deadman));
   assert_false(deadman.step(true, false, Trouble::kNone));
@@ -53,7 +53,7 @@ void pressed_with_a_lever_off_its_middle_it_does_not_count(void**) {
   assert_true(press(deadman));
 }
 
-void trouble_ends_it_in_the_same_cycle(void**) {
+TEST(trouble_ends_it_in_the_same_cycle) {
   for (const Trouble trouble : kTroubles) {
     Deadman deadman;
     assert_false(release(deadman));
@@ -69,7 +69,7 @@ void trouble_ends_it_in_the_same_cycle(void**) {
 }
 
 /// What is held while the device comes back was not seen to be pressed.
-void a_release_during_trouble_is_none(void**) {
+TEST(a_release_during_trouble_is_none) {
   for (const Trouble trouble : kTroubles) {
     Deadman deadman;
     assert_false(release(deadman));
@@ -82,13 +82,4 @@ void a_release_during_trouble_is_none(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_is_on_from_press_to_release),
-      cmocka_unit_test(held_from_the_start_it_does_not_count),
-      cmocka_unit_test(pressed_with_a_lever_off_its_middle_it_does_not_count),
-      cmocka_unit_test(trouble_ends_it_in_the_same_cycle),
-      cmocka_unit_test(a_release_during_trouble_is_none),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -45,7 +45,7 @@ CanFrame trouble_frame(Fault fault) {
   return frame_of(trouble);
 }
 
-void the_mode_holds_for_a_tenth_of_a_second(void**) {
+TEST(the_mode_holds_for_a_tenth_of_a_second) {
   EcuListener ecu;
   assert_false(ecu.mode(0).has_value());
   ecu.hear(status_frame(Dbc::EcuStatus::Mode::kArmed), kSecondUs);
@@ -55,7 +55,7 @@ void the_mode_holds_for_a_tenth_of_a_second(void**) {
   assert_false(ecu.mode(kSecondUs + 100 * kMillisecondUs).has_value());
 }
 
-void what_is_no_whole_data_frame_is_not_heard(void**) {
+TEST(what_is_no_whole_data_frame_is_not_heard) {
   const CanFrame good = status_frame(Dbc::EcuStatus::Mode::kArmed);
   std::vector<CanFrame> bad(5, good);
   bad[0].extended = false;
@@ -72,7 +72,7 @@ void what_is_no_whole_data_frame_is_not_heard(void**) {
   assert_true(ecu.hears_ecu(0));
 }
 
-void a_stamp_is_repeated(void**) {
+TEST(a_stamp_is_repeated) {
   EcuListener ecu;
   assert_int_equal(ecu.echo().value, 0);
   ecu.hear(identity_frame(Dbc::kDbcVersion, 1234), 0);
@@ -80,7 +80,7 @@ void a_stamp_is_repeated(void**) {
   assert_true(ecu.echo().state == RawState::kValid);
 }
 
-void another_version_is_told(void**) {
+TEST(another_version_is_told) {
   EcuListener ecu;
   assert_false(ecu.other_version().has_value());
   ecu.hear(identity_frame(Dbc::kDbcVersion, 1), 0);
@@ -92,7 +92,7 @@ void another_version_is_told(void**) {
   assert_true(ecu.other_version().has_value());
 }
 
-void another_station_is_known_by_its_address(void**) {
+TEST(another_station_is_known_by_its_address) {
   EcuListener ecu;
   ecu.hear(status_frame(Dbc::EcuStatus::Mode::kReady), 0);
   ecu.hear(frame_of(Dbc::OperatorAxes{}), 0);
@@ -106,7 +106,7 @@ void another_station_is_known_by_its_address(void**) {
   assert_int_equal(*ecu.other_station(), 0x42);
 }
 
-void strokes_grow_old(void**) {
+TEST(strokes_grow_old) {
   EcuListener ecu;
   Dbc::BoomStroke boom;
   boom.boom_stroke_m = {1.25, RawState::kValid};
@@ -121,7 +121,7 @@ void strokes_grow_old(void**) {
   assert_false(ecu.strokes_m(50 * kMillisecondUs)[0].has_value());
 }
 
-void trouble_codes_are_kept_while_they_are_repeated(void**) {
+TEST(trouble_codes_are_kept_while_they_are_repeated) {
   EcuListener ecu;
   ecu.hear(frame_of(Dbc::DM1{}), 0);
   assert_true(ecu.faults(0).empty());
@@ -134,15 +134,4 @@ void trouble_codes_are_kept_while_they_are_repeated(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_mode_holds_for_a_tenth_of_a_second),
-      cmocka_unit_test(what_is_no_whole_data_frame_is_not_heard),
-      cmocka_unit_test(a_stamp_is_repeated),
-      cmocka_unit_test(another_version_is_told),
-      cmocka_unit_test(another_station_is_known_by_its_address),
-      cmocka_unit_test(strokes_grow_old),
-      cmocka_unit_test(trouble_codes_are_kept_while_they_are_repeated),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

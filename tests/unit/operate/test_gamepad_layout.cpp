@@ -43,7 +43,7 @@ struct Pad {
   std::unique_ptr<libevdev, void (*)(libevdev*)> device{libevdev_new(), libevdev_free};
 };
 
-void a_pad_is_a_pad(void**) {
+TEST(a_pad_is_a_pad) {
   assert_string_equal(what_is_missing(Pad().device.get()).c_str(), "");
   assert_string_equal(what_is_missing(Pad(ABS_Z, ABS_RZ).device.get()).c_str(), "");
 }
@@ -55,7 +55,7 @@ void check_missing(unsigned type, unsigned code, const char* part) {
   assert_non_null(std::strstr(missing.c_str(), part));
 }
 
-void what_lacks_something_is_none(void**) {
+TEST(what_lacks_something_is_none) {
   check_missing(EV_KEY, BTN_SOUTH, "buttons of a gamepad");
   check_missing(EV_KEY, BTN_TL, "left shoulder");
   check_missing(EV_KEY, BTN_START, "start");
@@ -66,13 +66,13 @@ void what_lacks_something_is_none(void**) {
   check_missing(EV_ABS, ABS_RY, "right stick");
 }
 
-void an_axis_without_travel_is_none(void**) {
+TEST(an_axis_without_travel_is_none) {
   Pad pad;
   libevdev_set_abs_minimum(pad.device.get(), ABS_Y, 100);
   assert_string_equal(what_is_missing(pad.device.get()).c_str(), "a left stick");
 }
 
-void sticks_are_levers(void**) {
+TEST(sticks_are_levers) {
   Pad pad;
   pad.put(EV_ABS, ABS_X, 100);
   pad.put(EV_ABS, ABS_RY, 100);
@@ -91,7 +91,7 @@ void sticks_are_levers(void**) {
   assert_near(hands.levers.right.right_ratio, -1.0, 0.0);
 }
 
-void an_older_pads_right_stick_is_found(void**) {
+TEST(an_older_pads_right_stick_is_found) {
   Pad pad(ABS_Z, ABS_RZ);
   pad.put(EV_ABS, ABS_Z, 100);
   pad.put(EV_ABS, ABS_RZ, -100);
@@ -101,7 +101,7 @@ void an_older_pads_right_stick_is_found(void**) {
 }
 
 /// Where both are, the other one is a pair of triggers.
-void triggers_are_no_stick(void**) {
+TEST(triggers_are_no_stick) {
   Pad pad;
   pad.add_axis(ABS_Z);
   pad.add_axis(ABS_RZ);
@@ -110,7 +110,7 @@ void triggers_are_no_stick(void**) {
   assert_true(hands_of(pad.device.get()).levers.are_at_rest());
 }
 
-void the_deadman_is_the_left_shoulder(void**) {
+TEST(the_deadman_is_the_left_shoulder) {
   Pad pad;
   assert_false(hands_of(pad.device.get()).deadman);
   pad.put(EV_KEY, BTN_SOUTH, 1);
@@ -129,7 +129,7 @@ Hands pressed(std::uint16_t type, std::uint16_t code, int value) {
   return hands;
 }
 
-void presses_count_once(void**) {
+TEST(presses_count_once) {
   assert_true(pressed(EV_KEY, BTN_START, 1).changes_mode);
   assert_false(pressed(EV_KEY, BTN_START, 0).changes_mode);
   // A repetition is none.
@@ -146,16 +146,4 @@ void presses_count_once(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_pad_is_a_pad),
-      cmocka_unit_test(what_lacks_something_is_none),
-      cmocka_unit_test(an_axis_without_travel_is_none),
-      cmocka_unit_test(sticks_are_levers),
-      cmocka_unit_test(an_older_pads_right_stick_is_found),
-      cmocka_unit_test(triggers_are_no_stick),
-      cmocka_unit_test(the_deadman_is_the_left_shoulder),
-      cmocka_unit_test(presses_count_once),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -40,14 +40,14 @@ void check_has(const std::string& text, const char* part) {
   }
 }
 
-void the_only_one_is_taken(void**) {
+TEST(the_only_one_is_taken) {
   GamepadSearch search;
   search.gamepads = {{"/dev/input/event7", "Pad"}};
   search.others = 3;
   assert_string_equal(only_gamepad(search).c_str(), "/dev/input/event7");
 }
 
-void none_is_said_with_what_there_is(void**) {
+TEST(none_is_said_with_what_there_is) {
   GamepadSearch search;
   search.others = 3;
   check_has(refusal(search), "no gamepad among 3 input devices");
@@ -57,7 +57,7 @@ void none_is_said_with_what_there_is(void**) {
   check_has(refusal(search), "group `input`");
 }
 
-void several_are_named(void**) {
+TEST(several_are_named) {
   GamepadSearch search;
   search.gamepads = {{"/dev/input/event7", "Pad"}, {"/dev/input/event9", "Other"}};
   check_has(refusal(search), "more than one gamepad");
@@ -65,7 +65,7 @@ void several_are_named(void**) {
   check_has(refusal(search), "/dev/input/event9  Other");
 }
 
-void a_folder_without_devices_has_none(void**) {
+TEST(a_folder_without_devices_has_none) {
   assert_int_equal(find_gamepads("/nowhere").others, 0);
   const auto folder = std::filesystem::temp_directory_path() / "graben_unit_operate_search";
   std::filesystem::create_directories(folder);
@@ -78,20 +78,11 @@ void a_folder_without_devices_has_none(void**) {
   std::filesystem::remove_all(folder);
 }
 
-void a_path_without_a_device_is_refused(void**) {
+TEST(a_path_without_a_device_is_refused) {
   check_has(refusal("/nowhere/event3"), "/nowhere/event3: No such file");
   check_has(refusal("/dev/null"), "/dev/null: no input device of the kernel");
 }
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_only_one_is_taken),
-      cmocka_unit_test(none_is_said_with_what_there_is),
-      cmocka_unit_test(several_are_named),
-      cmocka_unit_test(a_folder_without_devices_has_none),
-      cmocka_unit_test(a_path_without_a_device_is_refused),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -32,20 +32,20 @@ TimeUs hold(KeyHold& keys, char key, TimeUs from_us, TimeUs to_us) {
   }
 }
 
-void a_held_key_is_held_all_the_time(void**) {
+TEST(a_held_key_is_held_all_the_time) {
   KeyHold keys;
   const TimeUs late_us = hold(keys, ' ', kSecondUs, 5 * kSecondUs);
   assert_true(late_us <= KeyHold::kRepeat_us + kCycle_us);
 }
 
-void a_tapped_key_ends_after_the_first_time(void**) {
+TEST(a_tapped_key_ends_after_the_first_time) {
   KeyHold keys;
   const TimeUs late_us = hold(keys, ' ', kSecondUs, kSecondUs + kCycle_us);
   assert_true(late_us <= KeyHold::kFirst_us);
   assert_true(late_us > KeyHold::kRepeat_us);
 }
 
-void a_repeating_key_that_stops_ends_soon(void**) {
+TEST(a_repeating_key_that_stops_ends_soon) {
   KeyHold keys;
   assert_true(keys.step(" ", 0).deadman);
   assert_true(keys.step(" ", 500 * kMillisecondUs).deadman);
@@ -55,7 +55,7 @@ void a_repeating_key_that_stops_ends_soon(void**) {
   assert_false(keys.step("", 510 * kMillisecondUs).deadman);
 }
 
-void a_lever_key_takes_over_from_space(void**) {
+TEST(a_lever_key_takes_over_from_space) {
   KeyHold keys;
   assert_true(keys.step(" ", 0).levers.are_at_rest());
   Hands hands = keys.step("k", 100 * kMillisecondUs);
@@ -75,7 +75,7 @@ void a_lever_key_takes_over_from_space(void**) {
   assert_near(keys.step("l", 360 * kMillisecondUs).levers.right.right_ratio, 1.0, 0.0);
 }
 
-void any_other_key_lets_go(void**) {
+TEST(any_other_key_lets_go) {
   for (const char* const other : {"x", "\x1b", "\r", "q"}) {
     KeyHold keys;
     assert_true(keys.step(" ", 0).deadman);
@@ -85,7 +85,7 @@ void any_other_key_lets_go(void**) {
   }
 }
 
-void commands_do_not_hold(void**) {
+TEST(commands_do_not_hold) {
   KeyHold keys;
   const Hands hands = keys.step("mt++-", 0);
   assert_true(hands.changes_mode && hands.changes_task);
@@ -97,14 +97,4 @@ void commands_do_not_hold(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_held_key_is_held_all_the_time),
-      cmocka_unit_test(a_tapped_key_ends_after_the_first_time),
-      cmocka_unit_test(a_repeating_key_that_stops_ends_soon),
-      cmocka_unit_test(a_lever_key_takes_over_from_space),
-      cmocka_unit_test(any_other_key_lets_go),
-      cmocka_unit_test(commands_do_not_hold),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

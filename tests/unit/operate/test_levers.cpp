@@ -22,7 +22,7 @@ constexpr StickRange kByte = {0, 255, 0};
 /// Half a step of the coarser one.
 constexpr double kClose = 0.5 / 127.5;
 
-void ends_are_full_and_the_middle_is_rest(void**) {
+TEST(ends_are_full_and_the_middle_is_rest) {
   assert_near(stick_ratio(32767, kStick), 1.0, 0.0);
   assert_near(stick_ratio(-32768, kStick), -1.0, 0.0);
   assert_near(stick_ratio(255, kByte), 1.0, 0.0);
@@ -35,7 +35,7 @@ void ends_are_full_and_the_middle_is_rest(void**) {
   assert_near(stick_ratio(40000, kStick), 1.0, 0.0);
 }
 
-void beyond_the_dead_zone_it_begins_at_zero(void**) {
+TEST(beyond_the_dead_zone_it_begins_at_zero) {
   constexpr double kHalf = 32767.5;
   const int edge = static_cast<int>(kDeadZone * kHalf);
   assert_near(stick_ratio(edge - 2, kStick), 0.0, 0.0);
@@ -45,7 +45,7 @@ void beyond_the_dead_zone_it_begins_at_zero(void**) {
   assert_true(stick_ratio(-edge - 10, kStick) < 0.0);
 }
 
-void half_the_way_is_expo(void**) {
+TEST(half_the_way_is_expo) {
   // Half of what is left beyond the dead zone: 0.4 * 0.5 + 0.6 * 0.125.
   const double half_way = 0.5 + 0.5 * kDeadZone;
   assert_near(stick_ratio(static_cast<int>(half_way * 32767.5), kStick), 0.275, 0.001);
@@ -53,7 +53,7 @@ void half_the_way_is_expo(void**) {
   assert_near(stick_ratio(128 + static_cast<int>(half_way * 127.5), kByte), 0.275, kClose * 2.0);
 }
 
-void it_rises_all_the_way(void**) {
+TEST(it_rises_all_the_way) {
   double last = -2.0;
   for (int raw = -32768; raw <= 32767; raw += 257) {
     const double ratio = stick_ratio(raw, kStick);
@@ -62,7 +62,7 @@ void it_rises_all_the_way(void**) {
   }
 }
 
-void the_drivers_flat_counts_if_it_is_larger(void**) {
+TEST(the_drivers_flat_counts_if_it_is_larger) {
   assert_near(stick_ratio(40, {-100, 100, 50}), 0.0, 0.0);
   assert_true(stick_ratio(60, {-100, 100, 50}) > 0.0);
   assert_true(stick_ratio(40, {-100, 100, 0}) > 0.0);
@@ -70,7 +70,7 @@ void the_drivers_flat_counts_if_it_is_larger(void**) {
   assert_near(stick_ratio(100, {-100, 100, 500}), 1.0, 1e-12);
 }
 
-void a_range_that_is_none_is_at_rest(void**) {
+TEST(a_range_that_is_none_is_at_rest) {
   assert_near(stick_ratio(7, {7, 7, 0}), 0.0, 0.0);
   assert_near(stick_ratio(7, {9, 3, 0}), 0.0, 0.0);
 }
@@ -83,7 +83,7 @@ void check(const Axes& axes, double boom, double arm, double bucket, double swin
 }
 
 /// As ISO 10968 has the levers of an excavator.
-void a_push_moves_as_on_an_excavator(void**) {
+TEST(a_push_moves_as_on_an_excavator) {
   Levers levers;
   levers.left.away_ratio = 0.5;  // Arm out: the teeth go forward, the cylinder retracts.
   check(axes_of(levers, Task::kJog), 0.0, -0.5, 0.0, 0.0);
@@ -102,7 +102,7 @@ void a_push_moves_as_on_an_excavator(void**) {
   check(axes_of(levers, Task::kCoordinated), 0.0, 0.0, 0.5, 0.0);
 }
 
-void each_way_of_a_lever_ends_rest(void**) {
+TEST(each_way_of_a_lever_ends_rest) {
   assert_true(Levers{}.are_at_rest());
   std::array<Levers, 4> pushed{};
   pushed[0].left.away_ratio = 0.01;
@@ -116,16 +116,4 @@ void each_way_of_a_lever_ends_rest(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(ends_are_full_and_the_middle_is_rest),
-      cmocka_unit_test(beyond_the_dead_zone_it_begins_at_zero),
-      cmocka_unit_test(half_the_way_is_expo),
-      cmocka_unit_test(it_rises_all_the_way),
-      cmocka_unit_test(the_drivers_flat_counts_if_it_is_larger),
-      cmocka_unit_test(a_range_that_is_none_is_at_rest),
-      cmocka_unit_test(a_push_moves_as_on_an_excavator),
-      cmocka_unit_test(each_way_of_a_lever_ends_rest),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

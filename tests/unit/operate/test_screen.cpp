@@ -63,7 +63,7 @@ void check_has(const std::string& text, const std::string& part) {
   }
 }
 
-void without_a_controller_it_says_so(void**) {
+TEST(without_a_controller_it_says_so) {
   const EcuListener ecu;
   View view = view_of(ecu);
   view.trouble = Trouble::kEcuSilent;
@@ -73,7 +73,7 @@ void without_a_controller_it_says_so(void**) {
   check_has(operate::state_line(view), "can0 active; controller not heard; Jog, Manual, speed 0 %");
 }
 
-void lambda_is_a_bar_with_what_holds_it(void**) {
+TEST(lambda_is_a_bar_with_what_holds_it) {
   assert_string_equal(operate::bar(0.0).c_str(), "[....................]");
   assert_string_equal(operate::bar(0.5).c_str(), "[##########..........]");
   assert_string_equal(operate::bar(1.0).c_str(), "[####################]");
@@ -89,7 +89,7 @@ void lambda_is_a_bar_with_what_holds_it(void**) {
   assert_true(text_of(view).find("Not armed") == std::string::npos);
 }
 
-void each_reason_for_not_arming_is_in_words(void**) {
+TEST(each_reason_for_not_arming_is_in_words) {
   EcuListener ecu;
   say_status(ecu, EcuMode::kReady);
   Dbc::EcuHealth health;
@@ -105,7 +105,7 @@ void each_reason_for_not_arming_is_in_words(void**) {
   check_has(text_of(view), "Not armed");
 }
 
-void every_fault_fits_with_what_to_do(void**) {
+TEST(every_fault_fits_with_what_to_do) {
   for (int number = 1; number < kFaultCount; ++number) {
     EcuListener ecu;
     const auto fault = static_cast<Fault>(number);
@@ -116,7 +116,7 @@ void every_fault_fits_with_what_to_do(void**) {
   }
 }
 
-void a_deadman_that_does_not_count_says_why(void**) {
+TEST(a_deadman_that_does_not_count_says_why) {
   const EcuListener ecu;
   View view = view_of(ecu);
   view.deadman_held = true;
@@ -125,7 +125,7 @@ void a_deadman_that_does_not_count_says_why(void**) {
             "held, and does not count: the gamepad has been silent for too long; release it");
 }
 
-void another_version_is_said(void**) {
+TEST(another_version_is_said) {
   EcuListener ecu;
   Dbc::EcuIdentity identity;
   identity.dbc_version = {3, RawState::kValid};
@@ -134,7 +134,7 @@ void another_version_is_said(void**) {
   check_has(operate::state_line(view_of(ecu)), "version 3");
 }
 
-void axes_have_the_tasks_names(void**) {
+TEST(axes_have_the_tasks_names) {
   const EcuListener ecu;
   View view = view_of(ecu);
   view.request.axes = {0.5, -0.25, 0.0, 1.0};
@@ -145,15 +145,4 @@ void axes_have_the_tasks_names(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(without_a_controller_it_says_so),
-      cmocka_unit_test(lambda_is_a_bar_with_what_holds_it),
-      cmocka_unit_test(each_reason_for_not_arming_is_in_words),
-      cmocka_unit_test(every_fault_fits_with_what_to_do),
-      cmocka_unit_test(a_deadman_that_does_not_count_says_why),
-      cmocka_unit_test(another_version_is_said),
-      cmocka_unit_test(axes_have_the_tasks_names),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -38,7 +38,7 @@ void check_nothing(const Request& request) {
   assert_near(request.axes.boom_or_up_ratio, 0.0, 0.0);
 }
 
-void the_task_waits_until_the_controller_is_armed(void**) {
+TEST(the_task_waits_until_the_controller_is_armed) {
   Station station = released();
   Request request = station.step(held(), kReady);
   assert_true(request.enable);
@@ -53,7 +53,7 @@ void the_task_waits_until_the_controller_is_armed(void**) {
   assert_true(request.task == Task::kNone);
 }
 
-void release_is_off_in_the_same_cycle(void**) {
+TEST(release_is_off_in_the_same_cycle) {
   Station station = released();
   static_cast<void>(station.step(held(), kReady));
   assert_true(station.step(held(0.5), kActive).enable);
@@ -62,7 +62,7 @@ void release_is_off_in_the_same_cycle(void**) {
   check_nothing(station.step(hands, kActive));
 }
 
-void a_device_that_is_gone_is_off_in_the_same_cycle(void**) {
+TEST(a_device_that_is_gone_is_off_in_the_same_cycle) {
   Station station = released();
   static_cast<void>(station.step(held(), kReady));
   Hands gone = held(0.5);
@@ -73,7 +73,7 @@ void a_device_that_is_gone_is_off_in_the_same_cycle(void**) {
   check_nothing(station.step(held(), kReady));
 }
 
-void lost_events_are_off_in_the_same_cycle(void**) {
+TEST(lost_events_are_off_in_the_same_cycle) {
   Station station = released();
   static_cast<void>(station.step(held(), kReady));
   Hands lost = held(0.5);
@@ -82,7 +82,7 @@ void lost_events_are_off_in_the_same_cycle(void**) {
   assert_true(station.deadman().trouble() == Trouble::kEventsLost);
 }
 
-void silence_counts_only_while_it_is_held_and_for_long(void**) {
+TEST(silence_counts_only_while_it_is_held_and_for_long) {
   operate::StationOptions options;
   options.silent_after_us = 2 * kSecondUs;
   Station station = released(options);
@@ -99,7 +99,7 @@ void silence_counts_only_while_it_is_held_and_for_long(void**) {
   assert_true(station.deadman().trouble() == Trouble::kDeviceSilent);
 }
 
-void trouble_around_is_off(void**) {
+TEST(trouble_around_is_off) {
   for (const Trouble trouble :
        {Trouble::kStationLate, Trouble::kBus, Trouble::kEcuSilent, Trouble::kOtherDbc}) {
     Station station = released();
@@ -109,7 +109,7 @@ void trouble_around_is_off(void**) {
   }
 }
 
-void mode_and_task_change_at_a_press(void**) {
+TEST(mode_and_task_change_at_a_press) {
   Station station = released();
   Hands press;
   press.changes_mode = true;
@@ -133,7 +133,7 @@ void mode_and_task_change_at_a_press(void**) {
   assert_true(station.chosen_task() == Task::kJog);
 }
 
-void speed_goes_by_tenths_and_stops_at_its_ends(void**) {
+TEST(speed_goes_by_tenths_and_stops_at_its_ends) {
   Station station = released();
   Hands faster;
   faster.speed_steps = 1;
@@ -149,16 +149,4 @@ void speed_goes_by_tenths_and_stops_at_its_ends(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_task_waits_until_the_controller_is_armed),
-      cmocka_unit_test(release_is_off_in_the_same_cycle),
-      cmocka_unit_test(a_device_that_is_gone_is_off_in_the_same_cycle),
-      cmocka_unit_test(lost_events_are_off_in_the_same_cycle),
-      cmocka_unit_test(silence_counts_only_while_it_is_held_and_for_long),
-      cmocka_unit_test(trouble_around_is_off),
-      cmocka_unit_test(mode_and_task_change_at_a_press),
-      cmocka_unit_test(speed_goes_by_tenths_and_stops_at_its_ends),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -73,7 +73,7 @@ Child start(bool ignores_hangup = false) {
   return child;
 }
 
-void it_is_raw_and_then_as_before(void**) {
+TEST(it_is_raw_and_then_as_before) {
   const Child child = start();
   assert_int_equal(write(child.terminal, "q", 1), 1);
   const int status = child.status();
@@ -81,7 +81,7 @@ void it_is_raw_and_then_as_before(void**) {
   assert_int_equal(child.modes(), ICANON | ECHO);
 }
 
-void a_signal_that_ends_gives_it_back(void**) {
+TEST(a_signal_that_ends_gives_it_back) {
   for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGSEGV, SIGABRT}) {
     const Child child = start();
     assert_int_equal(kill(child.pid, signal), 0);
@@ -91,7 +91,7 @@ void a_signal_that_ends_gives_it_back(void**) {
   }
 }
 
-void a_signal_that_is_ignored_does_not_end_it(void**) {
+TEST(a_signal_that_is_ignored_does_not_end_it) {
   const Child child = start(true);
   assert_int_equal(kill(child.pid, SIGHUP), 0);
   usleep(50'000);
@@ -99,7 +99,7 @@ void a_signal_that_is_ignored_does_not_end_it(void**) {
   assert_true(WIFEXITED(child.status()));
 }
 
-void without_a_terminal_it_is_refused(void**) {
+TEST(without_a_terminal_it_is_refused) {
   int ends[2] = {-1, -1};
   assert_int_equal(pipe(ends), 0);
   const pid_t pid = fork();
@@ -119,12 +119,4 @@ void without_a_terminal_it_is_refused(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_is_raw_and_then_as_before),
-      cmocka_unit_test(a_signal_that_ends_gives_it_back),
-      cmocka_unit_test(a_signal_that_is_ignored_does_not_end_it),
-      cmocka_unit_test(without_a_terminal_it_is_refused),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -40,7 +40,7 @@ void drive(ExcavatorPlant& plant, int cycle) {
   }
 }
 
-void energy_is_accounted_for(void**) {
+TEST(energy_is_accounted_for) {
   for (const double bulk_modulus : {1.4e9, 1.0e10}) {
     ExcavatorPlantProfile profile = machine_22t();
     profile.bulk_modulus_pa = bulk_modulus;
@@ -81,7 +81,7 @@ void energy_is_accounted_for(void**) {
   }
 }
 
-void tip_work_is_force_times_way(void**) {
+TEST(tip_work_is_force_times_way) {
   ExcavatorPlant plant(machine_22t(), kStart);
   plant.set_tip_force({15e3, 8e3});
   EnergyAccount account;
@@ -107,7 +107,7 @@ double oil_held_m3(const ExcavatorPlant& plant) {
 }
 
 // Oil in lines and chambers changes by what pumps give and tank takes, to rounding, voids or not.
-void oil_is_conserved(void**) {
+TEST(oil_is_conserved) {
   ExcavatorPlantProfile profile = machine_22t();
   profile.makeup_paspm3 = 1e12;  // next to none, so that chambers boil
   const double step_s = profile.step_s();
@@ -156,7 +156,7 @@ double cylinder_force_n(const ExcavatorPlant& plant, std::size_t axis, double co
 
 // A pose with right angles, worked by hand: boom along x, arm straight down, bucket back along -x.
 // Every position below is the machine file's, turned by 0, 90 or 180 deg.
-void gravity_by_hand(void**) {
+TEST(gravity_by_hand) {
   // Boom cylinder: base (0.46, -0.63), eye (2.33, 0.85).
   const double boom_length = std::hypot(2.33 - 0.46, 0.85 + 0.63);
   const double boom_lever = (0.46 * 0.85 + 0.63 * 2.33) / boom_length;
@@ -205,12 +205,4 @@ void gravity_by_hand(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(energy_is_accounted_for),
-      cmocka_unit_test(tip_work_is_force_times_way),
-      cmocka_unit_test(oil_is_conserved),
-      cmocka_unit_test(gravity_by_hand),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

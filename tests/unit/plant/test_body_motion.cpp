@@ -21,7 +21,7 @@ Driving after(const GradeProfile& design, Driving from, double lead_s, const Bod
   return drive_on(body(), ground, design, from, {from.speed_mps, 0.2}, lead_s, bias);
 }
 
-void motion_and_stand_are_the_same_thing(void**) {
+TEST(motion_and_stand_are_the_same_thing) {
   const BodyMotion motion = motion_of(body(), {0.3, 0.2}, 0.1, -0.4);
   const Stand stand = stand_of(body(), motion);
   assert_near(stand.height_m, 0.3, 1e-12);
@@ -29,21 +29,21 @@ void motion_and_stand_are_the_same_thing(void**) {
   assert_near(origin_climb_mps(body(), motion), 0.1, 1e-12);
 }
 
-void on_the_level_it_rests(void**) {
+TEST(on_the_level_it_rests) {
   const Driving on = after(GradeProfile(test::level(0.0)), standing_at(0.0, 1.0), 0.5);
   assert_near(on.x_m, 0.5, 1e-9);
   assert_near(stand_of(body(), on.motion).height_m, 0.0, 1e-9);
   assert_near(on.motion.pitch_rad, 0.0, 1e-9);
 }
 
-void no_lead_changes_nothing(void**) {
+TEST(no_lead_changes_nothing) {
   const Driving on = after(GradeProfile(test::bend(-0.3, 0.3)), standing_at(9.9, 1.0), 0.0);
   assert_near(on.x_m, 9.9, 0.0);
   assert_near(on.motion.pitch_rad, 0.0, 0.0);
 }
 
 /// It gets faster and slower as it is told.
-void it_goes_over_to_the_wanted_speed(void**) {
+TEST(it_goes_over_to_the_wanted_speed) {
   const GradeProfile design(test::level(0.0));
   const Driving on = drive_on(body(), test::cut_to(design, 0.0), design, standing_at(0.0, 1.0),
                               {0.8, 0.2}, 0.1, {});
@@ -52,7 +52,7 @@ void it_goes_over_to_the_wanted_speed(void**) {
 
 /// Over a crest, against the simulation's own half-vehicle, which takes 40 steps for one of these:
 /// millimetres after half a second of tipping.
-void it_tips_as_the_simulated_body_does(void**) {
+TEST(it_tips_as_the_simulated_body_does) {
   const GradeProfile design(test::bend(-0.3, 0.3));
   plant::DozerPlantProfile machine = test::dozer().plant;
   constexpr double kSpeed_mps = 0.6;
@@ -83,7 +83,7 @@ void it_tips_as_the_simulated_body_does(void**) {
 
 /// Ground that the map does not know of makes the body move as nobody expects: found within some
 /// tenths of a second, and told.
-void what_it_does_not_know_of_is_found(void**) {
+TEST(what_it_does_not_know_of_is_found) {
   const GradeProfile design(test::level(0.0));
   const GroundMap ground = test::cut_to(design, 0.0);
   const BodyBias unknown{0.4, -0.8};
@@ -98,7 +98,7 @@ void what_it_does_not_know_of_is_found(void**) {
 }
 
 /// However it starts, it stays within what a machine can do.
-void it_does_not_run_away(void**) {
+TEST(it_does_not_run_away) {
   const GradeProfile design(test::level(0.0));
   Driving wild{motion_of(body(), {-2.0, 0.7}, -50.0, 50.0), 0.0, 3.0};
   const Driving on = after(design, wild, 0.4);
@@ -109,15 +109,4 @@ void it_does_not_run_away(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(motion_and_stand_are_the_same_thing),
-      cmocka_unit_test(on_the_level_it_rests),
-      cmocka_unit_test(no_lead_changes_nothing),
-      cmocka_unit_test(it_goes_over_to_the_wanted_speed),
-      cmocka_unit_test(it_tips_as_the_simulated_body_does),
-      cmocka_unit_test(what_it_does_not_know_of_is_found),
-      cmocka_unit_test(it_does_not_run_away),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

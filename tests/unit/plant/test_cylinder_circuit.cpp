@@ -16,7 +16,7 @@ constexpr double kCapArea = kCircuitCapArea;
 constexpr double kRodArea = kCircuitRodArea;
 
 // Steady extension: in-flow and out-flow of an asymmetric cylinder, force balance, pump balance.
-void steady_extension_meets_the_orifice_equations(void**) {
+TEST(steady_extension_meets_the_orifice_equations) {
   const ExcavatorPlantProfile profile = hopsan_circuit(200);
   CylinderCircuit circuit(profile, 0.1, 20000.0, 60000.0);
   circuit.run(5.0, 0.4);
@@ -36,7 +36,7 @@ void steady_extension_meets_the_orifice_equations(void**) {
   assert_near(circuit.pump.flows().delivered_m3ps, 3.5e-3 - 4e-12 * line, 1e-9);
 }
 
-void pump_relief_takes_what_the_bypass_cannot(void**) {
+TEST(pump_relief_takes_what_the_bypass_cannot) {
   CylinderCircuit circuit(hopsan_circuit(200), 0.1, 20000.0, 60000.0);
   circuit.run(1.0, 0.0);
   const double line = circuit.pump.pressure_pa();
@@ -45,7 +45,7 @@ void pump_relief_takes_what_the_bypass_cannot(void**) {
   assert_true(relieved > 0.5e-3);
 }
 
-void regeneration_feeds_the_pump_line(void**) {
+TEST(regeneration_feeds_the_pump_line) {
   ExcavatorPlantProfile profile = hopsan_circuit(200);
   SpoolProfile& spool = profile.machine.valve.spool[kArm];
   spool.regeneration = RegenerationSide::kExtend;
@@ -65,7 +65,7 @@ void regeneration_feeds_the_pump_line(void**) {
   assert_near(circuit.flows.recycle_in_m3ps, 0.0, 0.0);
 }
 
-void load_above_the_pump_flows_back(void**) {
+TEST(load_above_the_pump_flows_back) {
   // No load check in the circuit: opening towards a pump at standby lets the load down at first.
   ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.machine.valve.spool[kArm].bypass_open = 4.5e-6;
@@ -76,7 +76,7 @@ void load_above_the_pump_flows_back(void**) {
   assert_true(circuit.flows.supply_out_m3ps < 0.0);
 }
 
-void blocked_chambers_carry_a_load_like_a_spring(void**) {
+TEST(blocked_chambers_carry_a_load_like_a_spring) {
   ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.friction[kArm] = {0.0, 4e5};  // settles soon
   CylinderCircuit circuit(profile, 0.752, 20000.0, 60000.0);
@@ -87,7 +87,7 @@ void blocked_chambers_carry_a_load_like_a_spring(void**) {
   assert_near(circuit.position_m - 0.752, -10000.0 / stiffness, 5e-6);
 }
 
-void piston_leakage_is_laminar(void**) {
+TEST(piston_leakage_is_laminar) {
   ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.piston_leak_m3pspa = 1e-12;
   Cylinder cylinder(profile.cylinder(kArm), profile.step_s());
@@ -102,7 +102,7 @@ void piston_leakage_is_laminar(void**) {
 }
 
 // A load that would need 41 MPa presses in through the cap relief and draws on the rod side.
-void port_relief_and_make_up_hold_the_chambers(void**) {
+TEST(port_relief_and_make_up_hold_the_chambers) {
   ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.port_relief_pa = 38e6;
   profile.makeup_paspm3 = 3e6;
@@ -119,7 +119,7 @@ void port_relief_and_make_up_hold_the_chambers(void**) {
 
 // Closed valve, no make-up: a pull that the oil cannot follow opens a void, and the piston flies on
 // against the rod side alone. It comes back to where it was when the void closes.
-void void_closes_where_it_opened(void**) {
+TEST(void_closes_where_it_opened) {
   ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.start_back_pressure_pa = 0.5e6;
   CylinderCircuit circuit(profile, 0.752, 20000.0, 0.0);
@@ -151,7 +151,7 @@ void void_closes_where_it_opened(void**) {
 
 // What the pump line and the chambers hold changes by what the pump gives and tank takes, voids or
 // not: circuit (b) of the Hopsan reference, whose bore side boils for 0.3 s.
-void oil_is_conserved_through_voids(void**) {
+TEST(oil_is_conserved_through_voids) {
   CylinderCircuit circuit(hopsan_circuit(200), 0.752, 20000.0, 0.0);
   const auto held = [&] {
     return circuit.cylinder.cap().content_m3() + circuit.cylinder.rod().content_m3() +
@@ -177,17 +177,4 @@ void oil_is_conserved_through_voids(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(steady_extension_meets_the_orifice_equations),
-      cmocka_unit_test(pump_relief_takes_what_the_bypass_cannot),
-      cmocka_unit_test(regeneration_feeds_the_pump_line),
-      cmocka_unit_test(load_above_the_pump_flows_back),
-      cmocka_unit_test(blocked_chambers_carry_a_load_like_a_spring),
-      cmocka_unit_test(piston_leakage_is_laminar),
-      cmocka_unit_test(port_relief_and_make_up_hold_the_chambers),
-      cmocka_unit_test(void_closes_where_it_opened),
-      cmocka_unit_test(oil_is_conserved_through_voids),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -32,7 +32,7 @@ double mean_velocity_mps(DozerPlant& plant, double duration_s) {
 }
 
 // Pins by hand: base 0.5335 m from the pivot, rod eye 0.7078 m, 107.6 degrees between them at home.
-void linkage_is_the_drawings_triangle(void**) {
+TEST(linkage_is_the_drawings_triangle) {
   const BladeLinkage linkage(dozer_9t().machine.blade);
   assert_near(linkage.length_m(0.0), 1.007, 1e-12);
   assert_near(linkage.edge_m(0.0).y(), 0.0, 1e-12);
@@ -52,7 +52,7 @@ void linkage_is_the_drawings_triangle(void**) {
 }
 
 // Extension lowers; stroke 0 is fully raised; home lies between.
-void stroke_spans_the_reach(void**) {
+TEST(stroke_spans_the_reach) {
   const BladeLinkage linkage(dozer_9t().machine.blade);
   assert_near(linkage.edge_m(linkage.highest_rad()).y(), 0.80, 1e-12);
   assert_near(linkage.edge_m(linkage.lowest_rad()).y(), -0.38, 1e-12);
@@ -62,7 +62,7 @@ void stroke_spans_the_reach(void**) {
   assert_near(linkage.full_stroke_m(), 0.2922, 1e-4);
 }
 
-void speed_is_flow_over_area(void**) {
+TEST(speed_is_flow_over_area) {
   for (const double opening : {0.1, 0.3, 0.6}) {
     DozerPlant lower(dozer_9t());
     run(lower, opening, 0.8);
@@ -73,7 +73,7 @@ void speed_is_flow_over_area(void**) {
   }
 }
 
-void the_pump_limits_it(void**) {
+TEST(the_pump_limits_it) {
   for (const double engine : {157.08, 94.25}) {
     const double flow = kPumpFlow * engine / 157.08;
     for (const double opening : {1.0, -1.0}) {
@@ -96,7 +96,7 @@ void the_pump_limits_it(void**) {
 
 // The blade's weight pulls on the cylinders all the way down: at no opening and no engine speed
 // does it run ahead of what is fed.
-void a_lowering_blade_does_not_run_away(void**) {
+TEST(a_lowering_blade_does_not_run_away) {
   for (const double engine : {94.25, 157.08, 230.38}) {
     for (const double opening : {0.05, 0.4, 1.0}) {
       DozerPlant plant(dozer_9t());
@@ -115,7 +115,7 @@ void a_lowering_blade_does_not_run_away(void**) {
   }
 }
 
-void a_closed_spool_holds_the_load(void**) {
+TEST(a_closed_spool_holds_the_load) {
   DozerPlant plant(dozer_9t());
   run(plant, 0.0, 1.0);
   const double before = plant.blade_stroke_m();
@@ -133,7 +133,7 @@ void a_closed_spool_holds_the_load(void**) {
 }
 
 // Inside the deadband nothing opens; without enable neither.
-void deadband_and_enable_keep_it_shut(void**) {
+TEST(deadband_and_enable_keep_it_shut) {
   DozerPlant plant(dozer_9t());
   const double before = plant.blade_stroke_m();
   plant.set_blade_duty(0.19, true);
@@ -150,7 +150,7 @@ void deadband_and_enable_keep_it_shut(void**) {
   assert_near(plant.blade_stroke_m(), before, 1e-4);
 }
 
-void at_its_ends_the_relief_takes_over(void**) {
+TEST(at_its_ends_the_relief_takes_over) {
   DozerPlant plant(dozer_9t());
   run(plant, 1.0, 4.0);
   assert_near(plant.blade_stroke_m(), plant.blade().linkage().full_stroke_m(), 5e-4);
@@ -165,7 +165,7 @@ void at_its_ends_the_relief_takes_over(void**) {
 
 // What flows in and out of the chambers is what is in them, and nothing comes from the pump that it
 // does not give.
-void oil_is_accounted_for(void**) {
+TEST(oil_is_accounted_for) {
   DozerPlant plant(dozer_9t());
   // The leak past the piston only moves oil from one chamber to the other.
   double held = plant.cylinder().cap().content_m3() + plant.cylinder().rod().content_m3();
@@ -182,7 +182,7 @@ void oil_is_accounted_for(void**) {
 }
 
 // A chamber above the pump's relief does not flow back through the section.
-void the_load_check_holds(void**) {
+TEST(the_load_check_holds) {
   ImplementCircuit circuit(dozer_9t(), lift_section(dozer_9t()));
   circuit.set_command(0.6);
   for (int i = 0; i < 1000; ++i) {
@@ -197,7 +197,7 @@ void the_load_check_holds(void**) {
 }
 
 // The weight's moment turns with the body.
-void gravity_follows_the_bodys_pitch(void**) {
+TEST(gravity_follows_the_bodys_pitch) {
   const BladeJoint blade(dozer_9t());
   const double arm = std::atan2(-0.1037, 1.5881);
   for (const double pitch : {-0.3, 0.0, 0.3}) {
@@ -208,7 +208,7 @@ void gravity_follows_the_bodys_pitch(void**) {
 }
 
 // A first-order check of the whole chain: second-order spool lag, dead time.
-void the_spool_answers_after_its_dead_time(void**) {
+TEST(the_spool_answers_after_its_dead_time) {
   DozerPlantProfile profile = dozer_9t();
   profile.dead_time_s = 0.03;
   DozerPlant plant(profile);
@@ -224,7 +224,7 @@ void the_spool_answers_after_its_dead_time(void**) {
   assert_near(plant.spool_travel_ratio(), 0.5 * 2.0 * std::exp(-1.0), 0.01);
 }
 
-void a_pilot_valve_can_be_broken(void**) {
+TEST(a_pilot_valve_can_be_broken) {
   DozerPlant plant(dozer_9t());
   plant.set_blade_duty(0.3, true);
   plant.set_pilot_fault(-0.6, 0.0);
@@ -244,21 +244,4 @@ void a_pilot_valve_can_be_broken(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(linkage_is_the_drawings_triangle),
-      cmocka_unit_test(stroke_spans_the_reach),
-      cmocka_unit_test(speed_is_flow_over_area),
-      cmocka_unit_test(the_pump_limits_it),
-      cmocka_unit_test(a_lowering_blade_does_not_run_away),
-      cmocka_unit_test(a_closed_spool_holds_the_load),
-      cmocka_unit_test(deadband_and_enable_keep_it_shut),
-      cmocka_unit_test(at_its_ends_the_relief_takes_over),
-      cmocka_unit_test(oil_is_accounted_for),
-      cmocka_unit_test(the_load_check_holds),
-      cmocka_unit_test(gravity_follows_the_bodys_pitch),
-      cmocka_unit_test(the_spool_answers_after_its_dead_time),
-      cmocka_unit_test(a_pilot_valve_can_be_broken),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

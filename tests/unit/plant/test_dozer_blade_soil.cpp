@@ -31,7 +31,7 @@ void go(BladeSoil& soil, Terrain& terrain, double from_m, double to_m, double ed
 }
 
 /// What is cut is before the blade or lost: swollen, over its width.
-void nothing_of_what_is_cut_disappears(void**) {
+TEST(nothing_of_what_is_cut_disappears) {
   BladeSoil soil(loam(), profile());
   Terrain terrain = level();
   go(soil, terrain, 0.0, 2.0, -0.1);
@@ -41,7 +41,7 @@ void nothing_of_what_is_cut_disappears(void**) {
 }
 
 /// A blade holds no more than its height does; the rest runs off at its ends.
-void more_than_it_holds_runs_off(void**) {
+TEST(more_than_it_holds_runs_off) {
   BladeSoil soil(loam(), profile());
   Terrain terrain = level();
   go(soil, terrain, 0.0, 15.0, -0.2);
@@ -54,7 +54,7 @@ void more_than_it_holds_runs_off(void**) {
 }
 
 /// Over a dip it fills to its edge, as far as the prism goes.
-void it_fills_what_lies_below_its_edge(void**) {
+TEST(it_fills_what_lies_below_its_edge) {
   BladeSoil soil(loam(), profile());
   Terrain terrain = level();
   terrain.cut({5.0, -0.05}, {6.0, -0.05});
@@ -67,7 +67,7 @@ void it_fills_what_lies_below_its_edge(void**) {
 }
 
 /// Backward it leaves what it has carried, and cuts nothing forward of it.
-void going_back_it_lets_go(void**) {
+TEST(going_back_it_lets_go) {
   BladeSoil soil(loam(), profile());
   Terrain terrain = level();
   go(soil, terrain, 0.0, 2.0, -0.1);
@@ -76,7 +76,7 @@ void going_back_it_lets_go(void**) {
 }
 
 /// The fundamental equation of earthmoving without a prism, worked out here by itself.
-void an_empty_blade_has_the_force_of_the_equation(void**) {
+TEST(an_empty_blade_has_the_force_of_the_equation) {
   const BladeSoil soil(loam(), profile());
   const Terrain terrain = level();
   constexpr double kDepth_m = 0.1;
@@ -90,7 +90,7 @@ void an_empty_blade_has_the_force_of_the_equation(void**) {
   assert_true(-force_n.x() > 5e3 && -force_n.x() < 30e3);
 }
 
-void deeper_fuller_and_downwards_is_harder(void**) {
+TEST(deeper_fuller_and_downwards_is_harder) {
   BladeSoil soil(loam(), profile());
   Terrain terrain = level();
   const auto against_n = [&](double depth_m) {
@@ -105,14 +105,14 @@ void deeper_fuller_and_downwards_is_harder(void**) {
   assert_true(against_n(0.0) > 3e3);
 }
 
-void at_rest_and_backward_nothing_resists(void**) {
+TEST(at_rest_and_backward_nothing_resists) {
   const BladeSoil soil(loam(), profile());
   const Terrain terrain = level();
   assert_near(soil.force_n({5.0, -0.1}, {0.0, 0.0}, 0.0, terrain).norm(), 0.0, 0.0);
   assert_near(soil.force_n({5.0, -0.1}, {-1.0, 0.0}, 0.0, terrain).norm(), 0.0, 0.0);
 }
 
-void a_drawn_soil_is_within_forty_percent(void**) {
+TEST(a_drawn_soil_is_within_forty_percent) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const plant::SoilKind drawn = machines::ground_of("clay", true, seed);
     const plant::SoilKind told = machines::ground_of("clay", false, seed);
@@ -130,16 +130,4 @@ void a_drawn_soil_is_within_forty_percent(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(nothing_of_what_is_cut_disappears),
-      cmocka_unit_test(more_than_it_holds_runs_off),
-      cmocka_unit_test(it_fills_what_lies_below_its_edge),
-      cmocka_unit_test(going_back_it_lets_go),
-      cmocka_unit_test(an_empty_blade_has_the_force_of_the_equation),
-      cmocka_unit_test(deeper_fuller_and_downwards_is_harder),
-      cmocka_unit_test(at_rest_and_backward_nothing_resists),
-      cmocka_unit_test(a_drawn_soil_is_within_forty_percent),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

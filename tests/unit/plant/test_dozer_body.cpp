@@ -39,7 +39,7 @@ void run(HalfVehicle& body, const Terrain& terrain, double traction_n, double du
   }
 }
 
-void it_starts_in_its_sag(void**) {
+TEST(it_starts_in_its_sag) {
   const Terrain terrain(-10.0, 30.0, 0.02);
   HalfVehicle body(at(-3.0));
   assert_near(body.load_n(), kWeight, 1e-6);
@@ -58,7 +58,7 @@ void it_starts_in_its_sag(void**) {
 }
 
 // Parallel to a slope, its origin on it: the sag is upright, as the springs are.
-void on_a_slope_it_stands_parallel_to_it(void**) {
+TEST(on_a_slope_it_stands_parallel_to_it) {
   const double slope = 0.2;
   const Terrain terrain = ramp(slope);
   HalfVehicle body(at(-3.0));
@@ -99,7 +99,7 @@ double pitch_held_on(double slope, const BodyLoad& load, double push_n) {
 
 // What holds it on a slope turns nothing: the wheels' levers have it already. What it pushes with
 // beyond that turns it nose up, unless what it pushes against is as low as its tracks.
-void traction_turns_it_by_what_it_pushes_with(void**) {
+TEST(traction_turns_it_by_what_it_pushes_with) {
   const BodyLoad turned{Eigen::Vector2d::Zero(), 0.0, true};
   const double at_rest_rad = pitch_held_on(0.2, {}, 0.0);
   assert_near(pitch_held_on(0.2, turned, 0.0), at_rest_rad, 1e-4);
@@ -114,7 +114,7 @@ void traction_turns_it_by_what_it_pushes_with(void**) {
   assert_near(pitch_held_on(0.0, low, push_n), 0.0, 1e-5);
 }
 
-void force_and_rolling_resistance_accelerate_it(void**) {
+TEST(force_and_rolling_resistance_accelerate_it) {
   const Terrain terrain(-10.0, 30.0, 0.02);
   HalfVehicle body(at(-3.0));
   run(body, terrain, 20e3, 0.5);
@@ -130,7 +130,7 @@ void force_and_rolling_resistance_accelerate_it(void**) {
 }
 
 // Along the slope the force accelerates; x has the cosine's share of it.
-void on_a_slope_gravity_accelerates_it(void**) {
+TEST(on_a_slope_gravity_accelerates_it) {
   const double slope = 0.35;
   const Terrain terrain = ramp(slope);
   HalfVehicle body(at(-1.0));
@@ -145,7 +145,7 @@ void on_a_slope_gravity_accelerates_it(void**) {
 }
 
 // A ditch as narrow as a cell: the track passes over it.
-void a_wheel_is_wider_than_a_notch(void**) {
+TEST(a_wheel_is_wider_than_a_notch) {
   Terrain terrain(-10.0, 30.0, 0.02);
   terrain.cut({-1.8, 0.1}, {-1.8, -0.3});
   HalfVehicle body(at(-3.0));
@@ -163,7 +163,7 @@ void a_wheel_is_wider_than_a_notch(void**) {
 }
 
 // Nothing gains energy that nobody gives: dropped by a bit, it comes to rest where it belongs.
-void a_drop_is_damped(void**) {
+TEST(a_drop_is_damped) {
   Terrain terrain(-10.0, 30.0, 0.02);
   HalfVehicle body(at(-3.0));
   terrain.cut({-11.0, -0.05}, {31.0, -0.05});
@@ -211,7 +211,7 @@ Ledge over_the_ledge(HalfVehicle& body, const Terrain& terrain, double speed_mps
 
 // The wheels push only: the front hangs in the air until the mass centre is over the ledge, then
 // the machine tips, its rear lifts, and it settles on the slope.
-void over_a_ledge_it_tips(void**) {
+TEST(over_a_ledge_it_tips) {
   const double slope = 0.35;
   const Terrain terrain = ramp(slope);
   HalfVehicle body(at(-3.0));
@@ -269,14 +269,14 @@ Parked park_on(double slope, bool brake, double after_s) {
   return parked;
 }
 
-void the_brake_holds_on_a_slope(void**) {
+TEST(the_brake_holds_on_a_slope) {
   const Parked parked = park_on(0.35, true, 6.0);
   assert_near(parked.moved_m, 0.0, 1e-4);
   assert_near(parked.speed_mps, 0.0, 1e-6);
 }
 
 // Without, the transmission at no displacement holds all but its leakage.
-void without_the_brake_it_creeps(void**) {
+TEST(without_the_brake_it_creeps) {
   const Parked parked = park_on(0.35, false, 6.0);
   assert_true(parked.moved_m > 0.05);
   assert_true(parked.speed_mps > 0.005 && parked.speed_mps < 0.1);
@@ -284,18 +284,4 @@ void without_the_brake_it_creeps(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(it_starts_in_its_sag),
-      cmocka_unit_test(on_a_slope_it_stands_parallel_to_it),
-      cmocka_unit_test(traction_turns_it_by_what_it_pushes_with),
-      cmocka_unit_test(force_and_rolling_resistance_accelerate_it),
-      cmocka_unit_test(on_a_slope_gravity_accelerates_it),
-      cmocka_unit_test(a_wheel_is_wider_than_a_notch),
-      cmocka_unit_test(a_drop_is_damped),
-      cmocka_unit_test(over_a_ledge_it_tips),
-      cmocka_unit_test(the_brake_holds_on_a_slope),
-      cmocka_unit_test(without_the_brake_it_creeps),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

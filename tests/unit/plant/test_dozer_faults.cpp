@@ -15,7 +15,7 @@ double shown_stroke(const DozerRig& rig) {
   return last<dozer_bus::BladeStroke>(rig).blade_stroke_m.value;
 }
 
-void the_stroke_sensor_fails_in_its_ways(void**) {
+TEST(the_stroke_sensor_fails_in_its_ways) {
   DozerRig rig;
   rig.spool_for(30, true, -0.5);
   StrokeFault& fault = rig.machine.faults().stroke;
@@ -41,7 +41,7 @@ void the_stroke_sensor_fails_in_its_ways(void**) {
   assert_near(shown_stroke(rig), rig.machine.plant().blade_stroke_m(), 1e-4);
 }
 
-void the_spool_can_be_held_or_open_uncommanded(void**) {
+TEST(the_spool_can_be_held_or_open_uncommanded) {
   DozerRig rig;
   rig.machine.faults().spool_offset_ratio = 0.25;
   rig.spool_for(30, true, 0.3);
@@ -78,7 +78,7 @@ std::array<ReadingFault*, 6> faults_of(PoseFaults& pose) {
 }
 
 // Each switch at its own signal and at no other.
-void each_signal_of_the_pose_fails_alone(void**) {
+TEST(each_signal_of_the_pose_fails_alone) {
   DozerRig rig;
   rig.pumps_for(50, false, 0.5, 0.5);
   const std::array<ReadingFault*, 6> faults = faults_of(rig.machine.faults().pose);
@@ -105,7 +105,7 @@ void each_signal_of_the_pose_fails_alone(void**) {
 }
 
 // With noise every reading changes each time: the one that is stuck does not.
-void each_signal_of_the_pose_sticks_alone(void**) {
+TEST(each_signal_of_the_pose_sticks_alone) {
   DozerPlantProfile profile = dozer_9t();
   profile.sensor_errors = true;
   profile.seed = 3;
@@ -129,7 +129,7 @@ void each_signal_of_the_pose_sticks_alone(void**) {
   }
 }
 
-void the_whole_pose_can_be_lost(void**) {
+TEST(the_whole_pose_can_be_lost) {
   DozerRig rig;
   rig.machine.faults().pose.set_state(RawState::kError);
   rig.cycle();
@@ -143,7 +143,7 @@ void the_whole_pose_can_be_lost(void**) {
   }
 }
 
-void displacements_can_run_away_and_be_shown_wrong(void**) {
+TEST(displacements_can_run_away_and_be_shown_wrong) {
   DozerRig rig;
   PathFaults& left = rig.machine.faults().path[kLeft];
   PathFaults& right = rig.machine.faults().path[kRight];
@@ -170,7 +170,7 @@ void displacements_can_run_away_and_be_shown_wrong(void**) {
   assert_near(last<dozer_bus::RightTransmission>(rig).motor_ratio.value, 0.44, 1e-4);
 }
 
-void track_speeds_can_be_shown_wrong(void**) {
+TEST(track_speeds_can_be_shown_wrong) {
   DozerRig rig;
   rig.pumps_for(100, false, 0.5, 0.5);
   rig.machine.faults().path[kLeft].speed.stuck = true;
@@ -187,7 +187,7 @@ void track_speeds_can_be_shown_wrong(void**) {
   assert_true(last<dozer_bus::TrackSpeed>(rig).right_track_mps.state == RawState::kValid);
 }
 
-void commands_can_be_lost(void**) {
+TEST(commands_can_be_lost) {
   DozerRig rig;
   rig.spool_for(10, true, 0.5);
   rig.machine.faults().loses_spool_commands = true;
@@ -202,7 +202,7 @@ void commands_can_be_lost(void**) {
   assert_int_equal(rig.machine.pump_counters().timeouts, 1);
 }
 
-void frames_can_be_spoilt(void**) {
+TEST(frames_can_be_spoilt) {
   DozerRig rig;
   DozerFaults& faults = rig.machine.faults();
   rig.cycles(10);
@@ -230,7 +230,7 @@ void frames_can_be_spoilt(void**) {
   assert_int_not_equal(last<dozer_bus::MachineIdentity>(rig).profile_hash.value, kHash);
 }
 
-void noise_comes_from_the_seed(void**) {
+TEST(noise_comes_from_the_seed) {
   DozerPlantProfile profile = dozer_9t();
   profile.sensor_errors = true;
   profile.seed = 5;
@@ -253,18 +253,4 @@ void noise_comes_from_the_seed(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_stroke_sensor_fails_in_its_ways),
-      cmocka_unit_test(the_spool_can_be_held_or_open_uncommanded),
-      cmocka_unit_test(each_signal_of_the_pose_fails_alone),
-      cmocka_unit_test(each_signal_of_the_pose_sticks_alone),
-      cmocka_unit_test(the_whole_pose_can_be_lost),
-      cmocka_unit_test(displacements_can_run_away_and_be_shown_wrong),
-      cmocka_unit_test(track_speeds_can_be_shown_wrong),
-      cmocka_unit_test(commands_can_be_lost),
-      cmocka_unit_test(frames_can_be_spoilt),
-      cmocka_unit_test(noise_comes_from_the_seed),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -11,7 +11,7 @@ using namespace graben::plant;
 
 constexpr double kCell = 0.02;
 
-void uncut_ground_is_flat_everywhere(void**) {
+TEST(uncut_ground_is_flat_everywhere) {
   const Terrain terrain(-9.0, 37.0, kCell);
   for (const double x : {-100.0, -9.0, 0.013, 37.0, 100.0}) {
     assert_near(terrain.height_m(x), 0.0, 0.0);
@@ -22,7 +22,7 @@ void uncut_ground_is_flat_everywhere(void**) {
   assert_near(terrain.end_m(), 37.0, 1e-9);
 }
 
-void the_edge_lowers_what_it_passes(void**) {
+TEST(the_edge_lowers_what_it_passes) {
   Terrain terrain(0.0, 4.0, kCell);
   terrain.cut({1.0, 0.0}, {2.0, -0.2});
   for (const double x : {1.1, 1.23, 1.5, 1.99}) {
@@ -35,7 +35,7 @@ void the_edge_lowers_what_it_passes(void**) {
 }
 
 // A way in steps shorter than a cell, each of which may pass no node at all.
-void many_short_ways_cut_as_one_long(void**) {
+TEST(many_short_ways_cut_as_one_long) {
   Terrain terrain(0.0, 4.0, kCell);
   Eigen::Vector2d edge(1.0, 0.0);
   for (int i = 1; i <= 1300; ++i) {
@@ -48,7 +48,7 @@ void many_short_ways_cut_as_one_long(void**) {
   }
 }
 
-void nothing_is_raised(void**) {
+TEST(nothing_is_raised) {
   Terrain terrain(0.0, 4.0, kCell);
   terrain.cut({1.0, -0.1}, {3.0, -0.1});
   terrain.cut({1.5, 0.3}, {2.5, 0.5});
@@ -58,7 +58,7 @@ void nothing_is_raised(void**) {
   }
 }
 
-void going_back_cuts_nothing(void**) {
+TEST(going_back_cuts_nothing) {
   Terrain terrain(0.0, 4.0, kCell);
   terrain.cut({3.0, -0.1}, {1.0, -0.1});
   for (double x = 0.5; x < 3.5; x += 0.05) {
@@ -66,7 +66,7 @@ void going_back_cuts_nothing(void**) {
   }
 }
 
-void an_edge_that_is_pressed_in_leaves_a_notch(void**) {
+TEST(an_edge_that_is_pressed_in_leaves_a_notch) {
   Terrain terrain(0.0, 4.0, kCell);
   terrain.cut({2.003, 0.1}, {2.004, -0.1});
   assert_near(terrain.height_m(2.0), -0.1, 1e-12);
@@ -77,7 +77,7 @@ void an_edge_that_is_pressed_in_leaves_a_notch(void**) {
 }
 
 // Each end's height goes on beyond it, and what is cut out there is lost.
-void beyond_its_ends_the_last_height_goes_on(void**) {
+TEST(beyond_its_ends_the_last_height_goes_on) {
   Terrain terrain(0.0, 1.0, kCell);
   terrain.cut({-1.0, -0.1}, {3.0, -0.1});
   for (const double x : {-5.0, -0.001, 0.5, 1.0, 1.03, 8.0}) {
@@ -87,7 +87,7 @@ void beyond_its_ends_the_last_height_goes_on(void**) {
 }
 
 // A step of one cell: seen over the wheel's width its slope has a bound.
-void the_mean_is_exact_and_smooths_a_step(void**) {
+TEST(the_mean_is_exact_and_smooths_a_step) {
   Terrain terrain(0.0, 4.0, kCell);
   terrain.cut({1.99, -0.3}, {3.5, -0.3});
   // Straight from 0 at 1.98 to -0.3 at 2.00; over 1.9 .. 2.1 that is -0.3 (0.1 + 0.01) / 0.2.
@@ -118,7 +118,7 @@ double settled_force(double track_mps, double ground_mps, double load_n, Tractio
   return force;
 }
 
-void steady_slip_gives_janosi_and_hanamotos_force(void**) {
+TEST(steady_slip_gives_janosi_and_hanamotos_force) {
   for (const double slip : {0.002, 0.01, 0.05, 0.3}) {
     for (const double sign : {1.0, -1.0}) {
       Traction driven(dozer_9t());
@@ -132,7 +132,7 @@ void steady_slip_gives_janosi_and_hanamotos_force(void**) {
   }
 }
 
-void no_more_than_friction_gives(void**) {
+TEST(no_more_than_friction_gives) {
   Traction traction(dozer_9t());
   for (int i = 0; i < 20000; ++i) {
     const double load = i < 10000 ? 40e3 : 0.0;
@@ -142,7 +142,7 @@ void no_more_than_friction_gives(void**) {
 }
 
 // A track that stands does not creep: what is sheared stays sheared and holds.
-void a_held_track_holds(void**) {
+TEST(a_held_track_holds) {
   Traction traction(dozer_9t());
   for (int i = 0; i < 10; ++i) {
     static_cast<void>(traction.step(0.0, -1.0, 40e3, 5e-4));
@@ -160,19 +160,4 @@ void a_held_track_holds(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(uncut_ground_is_flat_everywhere),
-      cmocka_unit_test(the_edge_lowers_what_it_passes),
-      cmocka_unit_test(many_short_ways_cut_as_one_long),
-      cmocka_unit_test(nothing_is_raised),
-      cmocka_unit_test(going_back_cuts_nothing),
-      cmocka_unit_test(an_edge_that_is_pressed_in_leaves_a_notch),
-      cmocka_unit_test(beyond_its_ends_the_last_height_goes_on),
-      cmocka_unit_test(the_mean_is_exact_and_smooths_a_step),
-      cmocka_unit_test(steady_slip_gives_janosi_and_hanamotos_force),
-      cmocka_unit_test(no_more_than_friction_gives),
-      cmocka_unit_test(a_held_track_holds),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -40,7 +40,7 @@ double working_pa(const HstPath& path) { return path.pressures_pa()[0] - path.pr
 
 // The largest is 1.8 m/s, with the motor's smallest displacement; at the working pressure (9)
 // holds.
-void at_work_it_goes_as_fast_as_9_says(void**) {
+TEST(at_work_it_goes_as_fast_as_9_says) {
   assert_near(nominal_mps(1.0, 0.35), 1.80, 0.005);
   for (const double motor : {1.0, 0.7, 0.35}) {
     // Motor torque of 15 MPa less a tenth, on the sprocket.
@@ -54,7 +54,7 @@ void at_work_it_goes_as_fast_as_9_says(void**) {
   assert_near(back.track_speed_mps() / nominal_mps(1.0, 1.0), -1.0, 0.002);
 }
 
-void with_less_load_it_leaks_less(void**) {
+TEST(with_less_load_it_leaks_less) {
   double last = 1.0;
   for (const double load : {15e6, 8e6, 3e6, 0.0}) {
     const HstPath path = driven(1.0, 0.4, 0.9 * load * 0.4 * 100e-6 * 70.9 / kTwoPi / 0.35);
@@ -66,7 +66,7 @@ void with_less_load_it_leaks_less(void**) {
   assert_near(last, (1.0 - 0.6 * 0.05) / (1.0 + 0.6 * (1.0 / 0.95 - 1.0)) / (0.95 * 0.95), 0.002);
 }
 
-void speed_follows_engine_and_displacements(void**) {
+TEST(speed_follows_engine_and_displacements) {
   const double whole = driven(1.0, 1.0, 0.0).track_speed_mps();
   assert_near(driven(0.5, 1.0, 0.0).track_speed_mps() / whole, 0.5, 0.003);
   assert_near(driven(1.0, 0.5, 0.0).track_speed_mps() / whole, 2.0, 0.01);
@@ -76,7 +76,7 @@ void speed_follows_engine_and_displacements(void**) {
 
 // Steady: what the pump gives, the motor takes and both leak; nothing through relief or charge at
 // the high line, and the low one is held at the charge pressure.
-void oil_is_accounted_for(void**) {
+TEST(oil_is_accounted_for) {
   HstPath path(dozer_9t());
   path.pump().set_wanted(0.8);
   path.motor().set_wanted(0.6);
@@ -101,7 +101,7 @@ void oil_is_accounted_for(void**) {
   assert_near(steady.motor_torque_nm(), 100e-6 * 70.9 / kTwoPi * pressure, 10.0);
 }
 
-void a_stalled_track_opens_the_relief(void**) {
+TEST(a_stalled_track_opens_the_relief) {
   HstPath path(dozer_9t());
   path.pump().set_wanted(1.0);
   for (int i = 0; i < 4000; ++i) {
@@ -119,7 +119,7 @@ void a_stalled_track_opens_the_relief(void**) {
 
 // What the low line lacks comes from the charge pump: it never boils, however hard the track is
 // dragged.
-void charge_feeds_the_low_line(void**) {
+TEST(charge_feeds_the_low_line) {
   HstPath path(dozer_9t());
   double lowest = 1e9;
   path.pump().set_wanted(1.0);
@@ -138,7 +138,7 @@ void charge_feeds_the_low_line(void**) {
 
 // A circuit that leaks nothing does not pump itself up on what the check lets in with every blow:
 // the flushing valve lets it out of the lower line again.
-void the_low_line_comes_back_to_the_charge_pressure(void**) {
+TEST(the_low_line_comes_back_to_the_charge_pressure) {
   DozerPlantProfile tight = dozer_9t();
   tight.machine.hst.pump_efficiency = 1.0;
   tight.machine.hst.motor_efficiency = 1.0;
@@ -153,7 +153,7 @@ void the_low_line_comes_back_to_the_charge_pressure(void**) {
   assert_near(path.pressures_pa()[0] - 2.5e6, working_pa(path), 0.05e6);
 }
 
-void the_brake_stops_and_holds(void**) {
+TEST(the_brake_stops_and_holds) {
   HstPath path = driven(0.0, 1.0, 0.0);
   run(path, 1.0, 100e3, true);
   assert_near(path.track_speed_mps(), 0.0, 0.0);
@@ -168,7 +168,7 @@ void the_brake_stops_and_holds(void**) {
   assert_true(path.track_speed_mps() < 0.0);
 }
 
-void a_displacement_lags_and_has_a_rate(void**) {
+TEST(a_displacement_lags_and_has_a_rate) {
   HstPath path(dozer_9t());
   path.pump().set_wanted(0.1);
   run(path, 0.08, 0.0);
@@ -192,7 +192,7 @@ void a_displacement_lags_and_has_a_rate(void**) {
   assert_near(path.motor().ratio(), 1.0, 1e-9);
 }
 
-void a_servo_can_be_broken(void**) {
+TEST(a_servo_can_be_broken) {
   HstPath path(dozer_9t());
   path.pump().set_wanted(0.4);
   path.pump().set_fault({0.9, 0.0, false});
@@ -217,18 +217,4 @@ void a_servo_can_be_broken(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(at_work_it_goes_as_fast_as_9_says),
-      cmocka_unit_test(with_less_load_it_leaks_less),
-      cmocka_unit_test(speed_follows_engine_and_displacements),
-      cmocka_unit_test(oil_is_accounted_for),
-      cmocka_unit_test(a_stalled_track_opens_the_relief),
-      cmocka_unit_test(charge_feeds_the_low_line),
-      cmocka_unit_test(the_low_line_comes_back_to_the_charge_pressure),
-      cmocka_unit_test(the_brake_stops_and_holds),
-      cmocka_unit_test(a_displacement_lags_and_has_a_rate),
-      cmocka_unit_test(a_servo_can_be_broken),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -12,7 +12,7 @@ using namespace graben::plant;
 using namespace graben::plant::test;
 using dbc::RawState;
 
-void messages_come_at_their_rates(void**) {
+TEST(messages_come_at_their_rates) {
   DozerRig rig;
   rig.cycle();
   assert_int_equal(rig.seen.size(), 10);
@@ -31,7 +31,7 @@ void messages_come_at_their_rates(void**) {
   assert_int_equal(rig.seen.size(), 11);
 }
 
-void frames_are_protected(void**) {
+TEST(frames_are_protected) {
   DozerRig rig;
   rig.cycles(100);
   check_protection<dozer_bus::BladeStroke>(rig);
@@ -54,7 +54,7 @@ void drive_for(DozerRig& rig, int count) {
   }
 }
 
-void values_are_the_plants(void**) {
+TEST(values_are_the_plants) {
   DozerPlantProfile profile = dozer_9t();
   DozerRig rig(profile);
   drive_for(rig, 100);
@@ -94,7 +94,7 @@ void values_are_the_plants(void**) {
   assert_int_equal(last<dozer_bus::MachineIdentity>(rig).dbc_version.value, dozer_bus::kDbcVersion);
 }
 
-void plant_runs_10_ms_a_cycle(void**) {
+TEST(plant_runs_10_ms_a_cycle) {
   DozerRig rig;
   drive_for(rig, 30);  // the third is the first to be accepted
   DozerPlant alone(dozer_9t());
@@ -107,7 +107,7 @@ void plant_runs_10_ms_a_cycle(void**) {
   assert_near(rig.machine.plant().blade_stroke_m(), alone.blade_stroke_m(), 0.0);
 }
 
-void it_waits_braked_and_neutral(void**) {
+TEST(it_waits_braked_and_neutral) {
   DozerRig rig;
   rig.cycles(20);
   assert_true(rig.braked());
@@ -116,7 +116,7 @@ void it_waits_braked_and_neutral(void**) {
   assert_near(rig.machine.plant().motor_ratios()[kLeft], 1.0, 0.0);
 }
 
-void the_spool_follows_its_command(void**) {
+TEST(the_spool_follows_its_command) {
   DozerRig rig;
   rig.spool_for(2, true, 0.5);
   assert_false(rig.machine.spools_enabled());  // the sequence is not confirmed yet
@@ -129,7 +129,7 @@ void the_spool_follows_its_command(void**) {
   assert_near(rig.blade_spool(), 0.0, 1e-4);
 }
 
-void a_silence_of_the_spool_is_neutral_and_wants_off(void**) {
+TEST(a_silence_of_the_spool_is_neutral_and_wants_off) {
   DozerRig rig;
   rig.spool_for(30, true, 0.5);
   rig.cycles(9);
@@ -149,7 +149,7 @@ void a_silence_of_the_spool_is_neutral_and_wants_off(void**) {
   assert_true(rig.machine.spools_enabled());
 }
 
-void an_unusable_spool_command_is_neutral(void**) {
+TEST(an_unusable_spool_command_is_neutral) {
   for (const RawState state : {RawState::kError, RawState::kNotAvailable}) {
     for (int which = 0; which < 3; ++which) {
       DozerRig rig;
@@ -166,7 +166,7 @@ void an_unusable_spool_command_is_neutral(void**) {
   }
 }
 
-void the_pilot_cut_centres_a_held_spool(void**) {
+TEST(the_pilot_cut_centres_a_held_spool) {
   DozerRig rig;
   rig.machine.faults().spool_held_ratio = 0.4;
   rig.spool_for(30, false, 0.0);
@@ -190,7 +190,7 @@ void the_pilot_cut_centres_a_held_spool(void**) {
   assert_near(rig.blade_spool(), 0.4, 1e-3);
 }
 
-void pumps_motors_and_brake_follow_their_commands(void**) {
+TEST(pumps_motors_and_brake_follow_their_commands) {
   DozerRig rig;
   rig.pumps_for(50, true, 0.6, -0.3);
   assert_near(rig.left_pump(), 0.6, 0.01);
@@ -206,7 +206,7 @@ void pumps_motors_and_brake_follow_their_commands(void**) {
 }
 
 // 100 ms without: pumps to 0 at once, the brake as soon as the tracks stand.
-void a_silence_of_the_pumps_stops_the_machine(void**) {
+TEST(a_silence_of_the_pumps_stops_the_machine) {
   DozerRig rig;
   rig.pumps_for(200, false, 1.0, 1.0);
   assert_true(rig.machine.plant().velocity_mps() > 0.6);
@@ -233,7 +233,7 @@ void a_silence_of_the_pumps_stops_the_machine(void**) {
 }
 
 // A pump that does not obey: the brake closes all the same.
-void the_brake_does_not_wait_for_ever(void**) {
+TEST(the_brake_does_not_wait_for_ever) {
   DozerRig rig;
   rig.machine.faults().path[kLeft].pump.held_ratio = 1.0;
   rig.machine.faults().path[kRight].pump.held_ratio = 1.0;
@@ -245,7 +245,7 @@ void the_brake_does_not_wait_for_ever(void**) {
 }
 
 // Nor does it begin to wait anew with each command that cannot be used.
-void unusable_commands_do_not_put_the_brake_off(void**) {
+TEST(unusable_commands_do_not_put_the_brake_off) {
   DozerRig rig;
   rig.machine.faults().path[kLeft].pump.held_ratio = 1.0;
   rig.machine.faults().path[kRight].pump.held_ratio = 1.0;
@@ -258,7 +258,7 @@ void unusable_commands_do_not_put_the_brake_off(void**) {
   assert_near(rig.machine.plant().track_speeds_mps()[kLeft], 0.0, 0.0);
 }
 
-void unusable_displacements_stop_the_machine(void**) {
+TEST(unusable_displacements_stop_the_machine) {
   for (int which = 0; which < 3; ++which) {
     DozerRig rig;
     rig.pumps_for(100, false, 1.0, 1.0);
@@ -294,7 +294,7 @@ void unusable_displacements_stop_the_machine(void**) {
   assert_int_equal(rig.machine.motor_counters().timeouts, 1);
 }
 
-void wrong_frames_are_no_sign_of_life(void**) {
+TEST(wrong_frames_are_no_sign_of_life) {
   using Spoil = void (*)(CanFrame&);
   const Spoil spoils[] = {
       [](CanFrame& f) { f.data[3] = static_cast<std::uint8_t>(f.data[3] ^ 0x10U); },
@@ -317,7 +317,7 @@ void wrong_frames_are_no_sign_of_life(void**) {
   }
 }
 
-void the_operator_asks_for_grading(void**) {
+TEST(the_operator_asks_for_grading) {
   DozerRig rig;
   rig.driver.set_schedule({{100'000, {true, OperatorMode::kAutomatic, Task::kGrade, 0.5}}});
   rig.cycles(9);
@@ -338,24 +338,4 @@ void the_operator_asks_for_grading(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(messages_come_at_their_rates),
-      cmocka_unit_test(frames_are_protected),
-      cmocka_unit_test(values_are_the_plants),
-      cmocka_unit_test(plant_runs_10_ms_a_cycle),
-      cmocka_unit_test(it_waits_braked_and_neutral),
-      cmocka_unit_test(the_spool_follows_its_command),
-      cmocka_unit_test(a_silence_of_the_spool_is_neutral_and_wants_off),
-      cmocka_unit_test(an_unusable_spool_command_is_neutral),
-      cmocka_unit_test(the_pilot_cut_centres_a_held_spool),
-      cmocka_unit_test(pumps_motors_and_brake_follow_their_commands),
-      cmocka_unit_test(a_silence_of_the_pumps_stops_the_machine),
-      cmocka_unit_test(the_brake_does_not_wait_for_ever),
-      cmocka_unit_test(unusable_commands_do_not_put_the_brake_off),
-      cmocka_unit_test(unusable_displacements_stop_the_machine),
-      cmocka_unit_test(wrong_frames_are_no_sign_of_life),
-      cmocka_unit_test(the_operator_asks_for_grading),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

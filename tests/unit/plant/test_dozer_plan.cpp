@@ -40,7 +40,7 @@ const Curved& curved() {
 }
 
 /// The centre of the circle is kRadius_m to the left of x = 5 m, but for half a step of the grid.
-void places_are_beside_the_track(void**) {
+TEST(places_are_beside_the_track) {
   const PlanTrack track(curved().profile.machine.grade.heights);
   const Eigen::Vector2d centre_m(4.975, kRadius_m);
   for (const double station_m : {8.0, 20.0, 45.0}) {
@@ -60,7 +60,7 @@ void places_are_beside_the_track(void**) {
 
 /// Driven straight on it leaves the track; with the outer track faster it turns, less than it would
 /// if nothing slipped.
-void it_turns_as_its_tracks_push(void**) {
+TEST(it_turns_as_its_tracks_push) {
   DozerPlant plant(curved().profile);
   plant.set_brake(false);
   plant.set_displacements({0.5, 0.5}, {1.0, 1.0});
@@ -76,7 +76,7 @@ void it_turns_as_its_tracks_push(void**) {
 }
 
 /// Turned a little and led to no side, the station goes on by the cosine, the offset by the sine.
-void a_way_is_along_and_across(void**) {
+TEST(a_way_is_along_and_across) {
   PlanMotion motion(curved().profile);
   // Half a second at rest with a push turns it.
   for (int i = 0; i < 1000; ++i) {
@@ -97,7 +97,7 @@ void a_way_is_along_and_across(void**) {
 }
 
 /// What it cuts lies where the edge's points are against the track.
-void its_edge_cuts_lines_beside_the_track(void**) {
+TEST(its_edge_cuts_lines_beside_the_track) {
   DozerPlant plant(curved().profile);
   const Eigen::Vector3d left_m = plant.edge_point_m(1.0);
   assert_near(left_m.y(), 1.0, 1e-6);
@@ -120,12 +120,4 @@ void its_edge_cuts_lines_beside_the_track(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(places_are_beside_the_track),
-      cmocka_unit_test(it_turns_as_its_tracks_push),
-      cmocka_unit_test(a_way_is_along_and_across),
-      cmocka_unit_test(its_edge_cuts_lines_beside_the_track),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -53,7 +53,7 @@ std::vector<double> state_of(const DozerPlant& plant) {
           plant.terrain().height_m(2.5)};
 }
 
-void at_rest_it_stays_at_rest(void**) {
+TEST(at_rest_it_stays_at_rest) {
   DozerPlant plant(dozer_9t());
   assert_near(plant.position_m(), -3.0, 0.0);
   assert_near(plant.height_m(), 0.0, 0.0);
@@ -79,7 +79,7 @@ void at_rest_it_stays_at_rest(void**) {
 }
 
 // The figures that the profile was made for: 1.8 m/s at 1500 rpm, on the level a little more.
-void on_the_level_it_reaches_its_speed(void**) {
+TEST(on_the_level_it_reaches_its_speed) {
   DozerPlant plant(dozer_9t());
   plant.set_brake(false);
   plant.set_displacements({1.0, 1.0}, {0.35, 0.35});
@@ -107,7 +107,7 @@ void on_the_level_it_reaches_its_speed(void**) {
 }
 
 // The trench that the blade has cut is what the tracks go down into, and out of.
-void the_tracks_follow_what_the_blade_cut(void**) {
+TEST(the_tracks_follow_what_the_blade_cut) {
   DozerPlant plant(dozer_9t());
   double lowest = 0.0;
   double steepest_down = 0.0;
@@ -134,7 +134,7 @@ void the_tracks_follow_what_the_blade_cut(void**) {
 }
 
 // Rates are the derivatives of what they belong to, and the edge is where pose and blade put it.
-void pose_rates_and_edge_belong_together(void**) {
+TEST(pose_rates_and_edge_belong_together) {
   DozerPlant plant(dozer_9t());
   const auto pose_of = [&plant] {
     return Eigen::Vector4d(plant.position_m(), plant.height_m(), plant.pitch_rad(),
@@ -162,7 +162,7 @@ void pose_rates_and_edge_belong_together(void**) {
   assert_true(steepest > 0.08);
 }
 
-void it_parks_on_the_slope_that_it_cut(void**) {
+TEST(it_parks_on_the_slope_that_it_cut) {
   DozerPlant plant(dozer_9t());
   while (plant.position_m() < 2.3) {
     grade_for(plant, kCycle);
@@ -180,7 +180,7 @@ void it_parks_on_the_slope_that_it_cut(void**) {
 }
 
 // With the brake on the tracks stand, whatever the pumps do.
-void the_brake_stalls_the_transmission(void**) {
+TEST(the_brake_stalls_the_transmission) {
   DozerPlant plant(dozer_9t());
   plant.set_displacements({1.0, 1.0}, {1.0, 1.0});
   plant.advance(3 * kSecondUs);
@@ -191,7 +191,7 @@ void the_brake_stalls_the_transmission(void**) {
 
 // One path that runs away drags its track over the ground, as the other one holds; both take the
 // machine along.
-void a_path_can_be_broken(void**) {
+TEST(a_path_can_be_broken) {
   DozerPlant plant(dozer_9t());
   plant.set_brake(false);
   plant.set_pump_fault(kLeft, {1.0, 0.0, false});
@@ -214,7 +214,7 @@ void a_path_can_be_broken(void**) {
   assert_near(plant.motor_ratios()[kRight], 0.5, 1e-6);
 }
 
-void the_same_calls_give_the_same_numbers(void**) {
+TEST(the_same_calls_give_the_same_numbers) {
   DozerPlant one(dozer_9t());
   DozerPlant other(dozer_9t());
   grade_for(one, 8 * kSecondUs);
@@ -228,7 +228,7 @@ void the_same_calls_give_the_same_numbers(void**) {
   assert_true(state_of(one) == state_of(other));
 }
 
-void a_shorter_step_changes_little(void**) {
+TEST(a_shorter_step_changes_little) {
   DozerPlantProfile fine = dozer_9t();
   fine.step_us = 250;
   DozerPlant coarse_plant(dozer_9t());
@@ -245,7 +245,7 @@ void a_shorter_step_changes_little(void**) {
   assert_true(coarse_plant.position_m() > 9.0);
 }
 
-void sensors_round_and_nothing_else_without_a_seed(void**) {
+TEST(sensors_round_and_nothing_else_without_a_seed) {
   DozerSensorErrors errors;
   errors.stroke_resolution_m = 1e-4;
   errors.height_bias_m = 0.002;
@@ -279,7 +279,7 @@ Statistics statistics_of(const Read& read) {
   return {mean, std::sqrt(squares / kReadings - mean * mean)};
 }
 
-void sensor_noise_has_its_deviation(void**) {
+TEST(sensor_noise_has_its_deviation) {
   DozerSensorErrors errors{1e-4, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.0};
   DozerSensorModel sensors(errors, 7);
   const auto check = [](double expected_deviation, const auto& read) {
@@ -297,7 +297,7 @@ void sensor_noise_has_its_deviation(void**) {
   assert_near(sensors.stroke_m(0.12344), 0.1234, 1e-12);
 }
 
-void the_height_bias_is_constant_and_within(void**) {
+TEST(the_height_bias_is_constant_and_within) {
   DozerSensorErrors errors;
   errors.height_bias_m = 0.002;
   double least = 1.0;
@@ -316,20 +316,4 @@ void the_height_bias_is_constant_and_within(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(at_rest_it_stays_at_rest),
-      cmocka_unit_test(on_the_level_it_reaches_its_speed),
-      cmocka_unit_test(the_tracks_follow_what_the_blade_cut),
-      cmocka_unit_test(pose_rates_and_edge_belong_together),
-      cmocka_unit_test(it_parks_on_the_slope_that_it_cut),
-      cmocka_unit_test(the_brake_stalls_the_transmission),
-      cmocka_unit_test(a_path_can_be_broken),
-      cmocka_unit_test(the_same_calls_give_the_same_numbers),
-      cmocka_unit_test(a_shorter_step_changes_little),
-      cmocka_unit_test(sensors_round_and_nothing_else_without_a_seed),
-      cmocka_unit_test(sensor_noise_has_its_deviation),
-      cmocka_unit_test(the_height_bias_is_constant_and_within),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -25,7 +25,7 @@ Terrain raised(double height_m) {
   return terrain;
 }
 
-void at_rest_both_tracks_carry_the_same(void**) {
+TEST(at_rest_both_tracks_carry_the_same) {
   DozerPlant plant(tilting());
   plant.advance(kSecondUs);
   assert_near(plant.roll_rad(), 0.0, 1e-9);
@@ -36,7 +36,7 @@ void at_rest_both_tracks_carry_the_same(void**) {
 
 /// Its springs let the mass centre tip it a little further than the ground does: by m g h sin over
 /// the roll stiffness.
-void on_a_slope_across_it_rolls_with_it(void**) {
+TEST(on_a_slope_across_it_rolls_with_it) {
   const DozerPlantProfile profile = tilting();
   const double slope = 0.05;
   const double gauge_m = 2.0 * profile.machine.body.half_gauge_m;
@@ -54,7 +54,7 @@ void on_a_slope_across_it_rolls_with_it(void**) {
   assert_near(body.load_n(), 8900.0 * 9.80665, 1.0);
 }
 
-void a_duty_tilts_the_blade_and_its_ends_cut(void**) {
+TEST(a_duty_tilts_the_blade_and_its_ends_cut) {
   DozerPlant plant(tilting());
   plant.set_tilt_duty(0.6, true);
   plant.advance(300 * kMillisecondUs);
@@ -84,7 +84,7 @@ void a_duty_tilts_the_blade_and_its_ends_cut(void**) {
 
 /// The pump can feed one of them fully open, not both: each has what its spool asks for of the
 /// whole.
-void lift_and_tilt_share_the_pump(void**) {
+TEST(lift_and_tilt_share_the_pump) {
   DozerPlant alone(tilting());
   alone.set_blade_duty(0.7, true);
   alone.advance(200 * kMillisecondUs);
@@ -102,7 +102,7 @@ void lift_and_tilt_share_the_pump(void**) {
   assert_true(both.blade_stroke_m() < alone.blade_stroke_m() - 0.003);
 }
 
-void one_without_tilt_has_none(void**) {
+TEST(one_without_tilt_has_none) {
   const DozerPlant plant(dozer_9t());
   assert_false(plant.tilt().has_value());
   assert_false(plant.cross_ground().has_value());
@@ -110,13 +110,4 @@ void one_without_tilt_has_none(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(at_rest_both_tracks_carry_the_same),
-      cmocka_unit_test(on_a_slope_across_it_rolls_with_it),
-      cmocka_unit_test(a_duty_tilts_the_blade_and_its_ends_cut),
-      cmocka_unit_test(lift_and_tilt_share_the_pump),
-      cmocka_unit_test(one_without_tilt_has_none),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

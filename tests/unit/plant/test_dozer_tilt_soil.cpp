@@ -33,7 +33,7 @@ DozerPlant cutting(const DozerPlantProfile& profile, double tilt_duty) {
   return plant;
 }
 
-void strips_share_the_whole_edge(void**) {
+TEST(strips_share_the_whole_edge) {
   EdgePlaces places;
   const std::array<double, kEdgeStrips> along_m = {1.2, 0.9, 0.0, -0.9, -1.2};
   for (std::size_t i = 0; i < kEdgeStrips; ++i) {
@@ -53,7 +53,7 @@ void strips_share_the_whole_edge(void**) {
 }
 
 /// Worked out by hand, on a machine that stands level: levers in x, y, z of each point.
-void a_strip_turns_what_it_holds(void**) {
+TEST(a_strip_turns_what_it_holds) {
   EdgeStand stand;
   stand.edge_middle_m = {2.0, 0.0, 0.0};
   stand.pivot_m = {0.5, 0.0, 0.4};
@@ -74,7 +74,7 @@ void a_strip_turns_what_it_holds(void**) {
 }
 
 /// All strips alike are the whole: a level blade has the force of the machine without tilt.
-void a_level_blade_has_the_force_of_one_without_tilt(void**) {
+TEST(a_level_blade_has_the_force_of_one_without_tilt) {
   const DozerPlant tilts = cutting(in_soil("dozer_9t_tilt", "loam"), 0.0);
   const DozerPlant level = cutting(in_soil("dozer_9t", "loam"), 0.0);
   const double force_n = level.soil_force_n().x();
@@ -88,7 +88,7 @@ void a_level_blade_has_the_force_of_one_without_tilt(void**) {
 }
 
 /// The deeper side is held back more, and what bears or draws it turns body and blade.
-void the_lower_end_is_held_back_more(void**) {
+TEST(the_lower_end_is_held_back_more) {
   const DozerPlant plant = cutting(in_soil("dozer_9t_tilt", "clay"), 0.6);
   const double left_m = plant.edge_point_m(1.0).z();
   const double right_m = plant.edge_point_m(-1.0).z();
@@ -103,7 +103,7 @@ void the_lower_end_is_held_back_more(void**) {
 }
 
 /// The tilt cylinder takes it: pressures change, and the blade hardly turns.
-void the_tilt_cylinder_holds_against_it(void**) {
+TEST(the_tilt_cylinder_holds_against_it) {
   const auto gives_rad = [](double moment_nm) {
     TiltDrive drive(in_soil("dozer_9t_tilt", "loam"), 0.0005);
     for (int i = 0; i < 1000; ++i) {
@@ -117,7 +117,7 @@ void the_tilt_cylinder_holds_against_it(void**) {
 }
 
 /// On level ground soil that lifts the left side rolls the body by its springs.
-void the_body_rolls_with_it(void**) {
+TEST(the_body_rolls_with_it) {
   const DozerPlantProfile profile = in_soil("dozer_9t_tilt", "loam");
   const Terrain level(-10.0, 10.0, 0.02);
   HalfVehicle body(profile);
@@ -132,7 +132,7 @@ void the_body_rolls_with_it(void**) {
 }
 
 /// What is cut on one side spreads before the whole blade.
-void nothing_of_what_strips_cut_disappears(void**) {
+TEST(nothing_of_what_strips_cut_disappears) {
   const DozerPlantProfile profile = in_soil("dozer_9t_tilt", "loam");
   BladeSoil soil(*profile.soil, profile);
   Terrain left(-2.0, 10.0, 0.02);
@@ -151,7 +151,7 @@ void nothing_of_what_strips_cut_disappears(void**) {
 }
 
 /// A stone lies more on one side, and the blade's middle does not know.
-void a_stone_lies_on_one_side(void**) {
+TEST(a_stone_lies_on_one_side) {
   const DozerPlantProfile profile = in_soil("dozer_9t_tilt", "stones");
   BladeSoil soil(*profile.soil, profile);
   const Terrain ground(-2.0, 10.0, 0.02);
@@ -167,16 +167,4 @@ void a_stone_lies_on_one_side(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(strips_share_the_whole_edge),
-      cmocka_unit_test(a_strip_turns_what_it_holds),
-      cmocka_unit_test(a_level_blade_has_the_force_of_one_without_tilt),
-      cmocka_unit_test(the_lower_end_is_held_back_more),
-      cmocka_unit_test(the_tilt_cylinder_holds_against_it),
-      cmocka_unit_test(the_body_rolls_with_it),
-      cmocka_unit_test(nothing_of_what_strips_cut_disappears),
-      cmocka_unit_test(a_stone_lies_on_one_side),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -16,7 +16,7 @@ using namespace graben::plant::test;
 constexpr double kStep_s = 1e-3;
 constexpr ExcavatorPlant::AxisArray kStart = {0.7, 0.7, 0.6};
 
-void speed_falls_by_the_share_with_its_lag(void**) {
+TEST(speed_falls_by_the_share_with_its_lag) {
   Engine engine({0.08, 0.5}, kStep_s);
   for (int i = 1; i <= 2000; ++i) {
     engine.step(1.0);
@@ -40,7 +40,7 @@ ExcavatorPlant stalled(const ExcavatorPlantProfile& profile) {
   return plant;
 }
 
-void full_power_takes_the_whole_share(void**) {
+TEST(full_power_takes_the_whole_share) {
   ExcavatorPlantProfile profile = machine_22t();
   const double rated_radps = profile.machine.pump[0].rated_speed_radps;
   assert_near(stalled(profile).engine_radps(), rated_radps, 0.0);
@@ -63,7 +63,7 @@ void full_power_takes_the_whole_share(void**) {
   assert_true(plant.engine_radps() < 0.92 * rated_radps);
 }
 
-void at_the_start_it_carries_its_standby(void**) {
+TEST(at_the_start_it_carries_its_standby) {
   ExcavatorPlantProfile profile = machine_22t();
   profile.engine.share = 0.10;
   ExcavatorPlant plant(profile, kStart);
@@ -74,7 +74,7 @@ void at_the_start_it_carries_its_standby(void**) {
 }
 
 /// Each pump gives its own share of what its swash and speed say, and neither sensor shows it.
-void a_pump_gives_less_than_its_swash_says(void**) {
+TEST(a_pump_gives_less_than_its_swash_says) {
   const ExcavatorPlantProfile exact = machine_22t();
   ExcavatorPlantProfile profile = exact;
   profile.pump_flow_ratio = {0.9, 1.1};
@@ -104,7 +104,7 @@ struct SaggingRig : BusRig<ExcavatorNode, OperatorNode<dbc::excavator::Dbc>> {
 /// EEC1 has 0.125 rpm.
 constexpr double kResolution_radps = 0.125 * 2.0 * kPi / 60.0;
 
-void the_bus_is_told_the_speed_that_it_has(void**) {
+TEST(the_bus_is_told_the_speed_that_it_has) {
   SaggingRig rig;
   rig.cycles(5);
   const double told_radps = last<bus::EEC1>(rig).engine_speed_radps.value;
@@ -118,13 +118,4 @@ void the_bus_is_told_the_speed_that_it_has(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(speed_falls_by_the_share_with_its_lag),
-      cmocka_unit_test(full_power_takes_the_whole_share),
-      cmocka_unit_test(at_the_start_it_carries_its_standby),
-      cmocka_unit_test(a_pump_gives_less_than_its_swash_says),
-      cmocka_unit_test(the_bus_is_told_the_speed_that_it_has),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -28,7 +28,7 @@ SoilProfile soil_profile() {
   return soil;
 }
 
-void soil_pushes_below_ground_only_and_grows_with_depth(void**) {
+TEST(soil_pushes_below_ground_only_and_grows_with_depth) {
   SoilProfile profile = soil_profile();
   profile.sine_ratio = 0.0;
   profile.random_ratio = 0.0;
@@ -42,7 +42,7 @@ void soil_pushes_below_ground_only_and_grows_with_depth(void**) {
 
 /// Mean, spread and spectrum of 400 s: amplitude 20 % at 0.5 Hz, standard deviation 10 % with half
 /// of its power below 5 Hz (first order), both directions alike.
-void soil_swings_as_told(void**) {
+TEST(soil_swings_as_told) {
   Soil soil(soil_profile(), 7, kStep_s);
   constexpr int kSteps = 2000000;
   constexpr double kTwoPi = 6.283185307179586;
@@ -71,7 +71,7 @@ void soil_swings_as_told(void**) {
   assert_near(changes / (kSteps / 50), 0.01 * 2.0 * (1.0 - std::exp(-kTwoPi * 0.05)), 5e-4);
 }
 
-void soil_is_the_same_at_any_step_and_another_with_another_seed(void**) {
+TEST(soil_is_the_same_at_any_step_and_another_with_another_seed) {
   Soil coarse(soil_profile(), 3, 1e-3);
   Soil fine(soil_profile(), 3, 5e-4);
   Soil other(soil_profile(), 4, 1e-3);
@@ -97,7 +97,7 @@ ObstacleProfile rock() {
   return rock;
 }
 
-void a_rock_holds_from_its_first_touch_and_then_is_gone(void**) {
+TEST(a_rock_holds_from_its_first_touch_and_then_is_gone) {
   Obstacle obstacle(rock(), kStep_s);
   assert_near(obstacle.step({4.2, -2.0}).norm(), 0.0, 0.0);
   assert_false(obstacle.touched());
@@ -118,7 +118,7 @@ void a_rock_holds_from_its_first_touch_and_then_is_gone(void**) {
 }
 
 /// Along its face it gives way where the force is more than friction holds; on the way in it damps.
-void a_rock_rubs_and_damps(void**) {
+TEST(a_rock_rubs_and_damps) {
   Obstacle obstacle(rock(), kStep_s);
   static_cast<void>(obstacle.step({4.001, -2.0}));
   const Eigen::Vector2d in = obstacle.step({3.999, -2.0});
@@ -137,7 +137,7 @@ void a_rock_rubs_and_damps(void**) {
   assert_near(obstacle.step({3.69, -2.0}).norm(), 0.0, 0.0);
 }
 
-void dead_time_is_a_pure_delay(void**) {
+TEST(dead_time_is_a_pure_delay) {
   DeadTime delay(0.001, kStep_s);
   for (int n = 1; n <= 20; ++n) {
     assert_near(delay.step(n), n > 5 ? n - 5 : 0.0, 0.0);
@@ -147,7 +147,7 @@ void dead_time_is_a_pure_delay(void**) {
 }
 
 /// The plant's spool does not stir before its dead time, and then as without one.
-void a_spool_waits_its_dead_time(void**) {
+TEST(a_spool_waits_its_dead_time) {
   ExcavatorPlantProfile profile = machine_22t();
   ExcavatorPlant prompt(profile, {0.6, 0.7, 0.5});
   profile.dead_time = {0.15, 0.0, 0.0};
@@ -164,7 +164,7 @@ void a_spool_waits_its_dead_time(void**) {
 }
 
 /// Over many seeds the bias fills its range evenly; the noise has its standard deviation.
-void sensors_err_within_their_bounds(void**) {
+TEST(sensors_err_within_their_bounds) {
   const SensorErrors errors = machine_22t().sensors;
   constexpr int kSeeds = 2000;
   double most = 0.0;
@@ -213,16 +213,4 @@ void sensors_err_within_their_bounds(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(soil_pushes_below_ground_only_and_grows_with_depth),
-      cmocka_unit_test(soil_swings_as_told),
-      cmocka_unit_test(soil_is_the_same_at_any_step_and_another_with_another_seed),
-      cmocka_unit_test(a_rock_holds_from_its_first_touch_and_then_is_gone),
-      cmocka_unit_test(a_rock_rubs_and_damps),
-      cmocka_unit_test(dead_time_is_a_pure_delay),
-      cmocka_unit_test(a_spool_waits_its_dead_time),
-      cmocka_unit_test(sensors_err_within_their_bounds),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -42,7 +42,7 @@ double rod_area(const ExcavatorPlantProfile& profile, std::size_t axis) {
 
 // Boom foot: the links' weights with their arms against the cylinder force with its arm, all from
 // plain trigonometry on the reported joint angles.
-void start_pressures_balance_the_boom(void**) {
+TEST(start_pressures_balance_the_boom) {
   const ExcavatorPlantProfile profile = machine_22t();
   const ExcavatorPlant plant(profile, kStart);
   const JointArray q = plant.joint_angles_rad();
@@ -72,7 +72,7 @@ void start_pressures_balance_the_boom(void**) {
   assert_near(force * lever, weight_moment, 1e-6 * weight_moment);
 }
 
-void start_is_an_equilibrium(void**) {
+TEST(start_is_an_equilibrium) {
   ExcavatorPlantProfile profile = machine_22t();
   profile.friction = {};  // friction would hold what is not balanced
   profile.piston_leak_m3pspa = 0.0;
@@ -89,7 +89,7 @@ void start_is_an_equilibrium(void**) {
   }
 }
 
-void pumps_start_in_standby(void**) {
+TEST(pumps_start_in_standby) {
   const ExcavatorPlantProfile profile = machine_22t();
   const ExcavatorPlant plant(profile, kStart);
   for (std::size_t p = 0; p < 2; ++p) {
@@ -105,7 +105,7 @@ void pumps_start_in_standby(void**) {
 
 // With spools closed only the leakage moves the pistons: 2e-14 m^3/(s Pa) at 10 MPa behind 0.0226
 // m^2 is 0.009 mm/s.
-void held_machine_stays(void**) {
+TEST(held_machine_stays) {
   ExcavatorPlant plant(machine_22t(), kStart);
   plant.advance(5 * kSecondUs);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -113,7 +113,7 @@ void held_machine_stays(void**) {
   }
 }
 
-void deadband_moves_nothing(void**) {
+TEST(deadband_moves_nothing) {
   ExcavatorPlant plant(machine_22t(), kStart);
   run(plant, {0.19, -0.19, 0.19}, 2 * kSecondUs);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -124,7 +124,7 @@ void deadband_moves_nothing(void**) {
 
 // Mean cylinder velocity of one second against the flow that its pump can give, the closed bypass
 // taken off.
-void motion_follows_the_flow_balance(void**) {
+TEST(motion_follows_the_flow_balance) {
   const ExcavatorPlantProfile profile = machine_22t();
   struct Case {
     std::size_t axis;
@@ -158,7 +158,7 @@ void motion_follows_the_flow_balance(void**) {
   }
 }
 
-void disabled_and_not_finite_duties_are_neutral(void**) {
+TEST(disabled_and_not_finite_duties_are_neutral) {
   ExcavatorPlant plant(machine_22t(), kStart);
   plant.set_duty({1.0, 1.0, 1.0}, false);
   plant.advance(kSecondUs);
@@ -170,7 +170,7 @@ void disabled_and_not_finite_duties_are_neutral(void**) {
   }
 }
 
-void tip_force_reaches_the_chambers(void**) {
+TEST(tip_force_reaches_the_chambers) {
   ExcavatorPlant plant(machine_22t(), kStart);
   const double before = plant.cap_pressures_pa()[kBoom];
   plant.set_tip_force({0.0, -10e3});
@@ -208,7 +208,7 @@ void watch(const ExcavatorPlant& plant, Extremes& extremes) {
   }
 }
 
-void full_speed_into_the_end_stops(void**) {
+TEST(full_speed_into_the_end_stops) {
   for (const double bulk_modulus : {1.4e9, 1.0e10}) {
     ExcavatorPlantProfile profile = machine_22t();
     profile.bulk_modulus_pa = bulk_modulus;
@@ -230,7 +230,7 @@ void full_speed_into_the_end_stops(void**) {
   }
 }
 
-void random_duty_for_a_minute(void**) {
+TEST(random_duty_for_a_minute) {
   for (const double bulk_modulus : {1.4e9, 1.0e10}) {
     ExcavatorPlantProfile profile = machine_22t();
     profile.bulk_modulus_pa = bulk_modulus;
@@ -293,7 +293,7 @@ double largest_tip_difference(const ExcavatorPlantProfile& profile, const std::v
   return largest;
 }
 
-void half_the_step_gives_the_same_path(void**) {
+TEST(half_the_step_gives_the_same_path) {
   for (const double bulk_modulus : {1.4e9, 1.0e10}) {
     ExcavatorPlantProfile profile = machine_22t();
     profile.bulk_modulus_pa = bulk_modulus;
@@ -309,13 +309,13 @@ void half_the_step_gives_the_same_path(void**) {
   }
 }
 
-void same_calls_same_numbers(void**) {
+TEST(same_calls_same_numbers) {
   const std::vector<AxisArray> first = spool_steps(machine_22t(), 200);
   const std::vector<AxisArray> second = spool_steps(machine_22t(), 200);
   assert_near(largest_difference(first, second), 0.0, 0.0);
 }
 
-void shares_of_a_step_are_kept(void**) {
+TEST(shares_of_a_step_are_kept) {
   ExcavatorPlant whole(machine_22t(), kStart);
   ExcavatorPlant pieces(machine_22t(), kStart);
   run(whole, {0.6, 0.0, 0.0}, 300 * kMillisecondUs);
@@ -328,7 +328,7 @@ void shares_of_a_step_are_kept(void**) {
 
 // All three axes on the one pump of the 12 t machine, one after the other and together; the second
 // line stays out of it.
-void one_pump_feeds_all(void**) {
+TEST(one_pump_feeds_all) {
   const ExcavatorPlantProfile profile =
       machines::load_simulated_excavator(machines::find_profile("excavator_12t")).plant;
   ExcavatorPlant plant(profile, {0.4, 0.5, 0.4});
@@ -347,22 +347,4 @@ void one_pump_feeds_all(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(start_pressures_balance_the_boom),
-      cmocka_unit_test(start_is_an_equilibrium),
-      cmocka_unit_test(pumps_start_in_standby),
-      cmocka_unit_test(held_machine_stays),
-      cmocka_unit_test(deadband_moves_nothing),
-      cmocka_unit_test(motion_follows_the_flow_balance),
-      cmocka_unit_test(disabled_and_not_finite_duties_are_neutral),
-      cmocka_unit_test(tip_force_reaches_the_chambers),
-      cmocka_unit_test(full_speed_into_the_end_stops),
-      cmocka_unit_test(random_duty_for_a_minute),
-      cmocka_unit_test(half_the_step_gives_the_same_path),
-      cmocka_unit_test(same_calls_same_numbers),
-      cmocka_unit_test(shares_of_a_step_are_kept),
-      cmocka_unit_test(one_pump_feeds_all),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

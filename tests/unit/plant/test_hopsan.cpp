@@ -111,7 +111,7 @@ void assert_within_apart(const Comparison& difference, double percent) {
   }
 }
 
-void orifice(void**) {
+TEST(orifice) {
   const Curves reference = read_curves(kFolder + "orifice.csv");
   for (const double step_s : {2e-4, 1e-4}) {
     const double k = orifice_coefficient(5e-6, 0.62, 870.0);
@@ -134,7 +134,7 @@ void orifice(void**) {
 }
 
 // With a load only the rod side boils, and hardly.
-void cylinder_loaded(void**) {
+TEST(cylinder_loaded) {
   const Curves reference = read_curves(kFolder + "cylinder_loaded.csv");
   for (const TimeUs step_us : {200, 100}) {
     const Result plant = run(kLoaded, reference, step_us, false);
@@ -150,7 +150,7 @@ void cylinder_loaded(void**) {
 // largest against 0.105 L, and full again 7.5 ms earlier, just before the load comes on: pressure
 // then rises, and the mass rings, at another time. Hence the rows set apart up to 0.65 s, where PA
 // alone is more than 3 % away.
-void cylinder(void**) {
+TEST(cylinder) {
   const Curves reference = read_curves(kFolder + "cylinder.csv");
   for (const TimeUs step_us : {200, 100}) {
     const Result plant = run(kCylinder, reference, step_us, false, {0.49, 0.65});
@@ -168,7 +168,7 @@ void cylinder(void**) {
 
 // The check opens at 0.202 s within a millisecond and its flow then differs by what the node's 0.5
 // L do, which the plant does not have: its gallery has no volume.
-void regeneration(void**) {
+TEST(regeneration) {
   const Curves reference = read_curves(kFolder + "regeneration.csv");
   for (const TimeUs step_us : {200, 100}) {
     const Result plant = run(kRegeneration, reference, step_us, false);
@@ -184,7 +184,7 @@ void regeneration(void**) {
 // With Hopsan's way of counting oil brought into the circuit, all curves agree throughout, boiling
 // or not, and the void on the bore side is refilled on the same millisecond: density is the only
 // difference between the two.
-void counting_oil_as_hopsan_leaves_no_difference(void**) {
+TEST(counting_oil_as_hopsan_leaves_no_difference) {
   for (const Case* c : {&kLoaded, &kCylinder, &kRegeneration}) {
     const Curves reference = read_curves(kFolder + c->file);
     for (const TimeUs step_us : {200, 100}) {
@@ -202,13 +202,4 @@ void counting_oil_as_hopsan_leaves_no_difference(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(orifice),
-      cmocka_unit_test(cylinder_loaded),
-      cmocka_unit_test(cylinder),
-      cmocka_unit_test(regeneration),
-      cmocka_unit_test(counting_oil_as_hopsan_leaves_no_difference),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -114,7 +114,7 @@ void wave(ImuRig& rig) {
   rig.drive({0.0, 0.0, 0.0, 0.0}, 1.0);
 }
 
-void level_and_at_rest(void**) {
+TEST(level_and_at_rest) {
   ImuRig rig(with_imus(machine_22t()), ExcavatorStart(kStart_22t));
   rig.cycles(5);
   // The boom's: its specific force is 1 g upwards, seen from a link that stands at its angle.
@@ -131,7 +131,7 @@ void level_and_at_rest(void**) {
   assert_int_equal(rig.seen.count(bus::BoomStroke::kId), 0);
 }
 
-void strokes_of_a_machine_in_motion(void**) {
+TEST(strokes_of_a_machine_in_motion) {
   ImuRig rig(with_imus(machine_22t()), ExcavatorStart(kStart_22t));
   wave(rig);
   print_message("22 t, exact sensors: %.2f mm\n", 1e3 * rig.worst_m);
@@ -139,7 +139,7 @@ void strokes_of_a_machine_in_motion(void**) {
   assert_true(rig.worst_m > 1e-5);
 }
 
-void what_is_left_of_bias_and_vibration(void**) {
+TEST(what_is_left_of_bias_and_vibration) {
   ExcavatorPlantProfile profile = with_imus(machine_22t());
   profile.sensor_errors = true;
   profile.seed = 3;
@@ -153,7 +153,7 @@ void what_is_left_of_bias_and_vibration(void**) {
   }
 }
 
-void mounted_otherwise(void**) {
+TEST(mounted_otherwise) {
   ExcavatorPlantProfile profile = with_imus(machine_22t());
   ImuProfile& imu = profile.machine.imu;
   imu.mount[kBoom].backwards = true;
@@ -170,7 +170,7 @@ void mounted_otherwise(void**) {
   assert_true(rig.worst_m < 4e-3);
 }
 
-void swing_is_taken_out(void**) {
+TEST(swing_is_taken_out) {
   ImuRig rig(with_imus(machine_12t()), ExcavatorStart(kStart_12t));
   rig.rest(2.0);
   rig.drive({0.0, 0.0, 0.0, 0.8}, 5.0);
@@ -179,7 +179,7 @@ void swing_is_taken_out(void**) {
   assert_true(rig.worst_m < 3e-3);
 }
 
-void silence_ages_and_error_shows(void**) {
+TEST(silence_ages_and_error_shows) {
   ImuRig rig(with_imus(machine_22t()), ExcavatorStart(kStart_22t));
   rig.rest(1.0);
   const TimeUs before = rig.strokes.stroke_m[kBoom].stamp_us;
@@ -218,13 +218,13 @@ void freeze(bool noisy) {
   assert_in_range(cycles, 10, 100);
 }
 
-void a_frozen_sensor_is_told(void**) {
+TEST(a_frozen_sensor_is_told) {
   freeze<Forces>(false);
   freeze<Forces>(true);
   freeze<Inertial>(true);
 }
 
-void unknown_until_it_is_known(void**) {
+TEST(unknown_until_it_is_known) {
   ExcavatorPlantProfile profile = with_imus(machine_22t());
   profile.sensor_errors = true;
   ImuRig rig(profile, ExcavatorStart(kStart_22t));
@@ -240,16 +240,4 @@ void unknown_until_it_is_known(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(level_and_at_rest),
-      cmocka_unit_test(strokes_of_a_machine_in_motion),
-      cmocka_unit_test(what_is_left_of_bias_and_vibration),
-      cmocka_unit_test(mounted_otherwise),
-      cmocka_unit_test(swing_is_taken_out),
-      cmocka_unit_test(silence_ages_and_error_shows),
-      cmocka_unit_test(a_frozen_sensor_is_told),
-      cmocka_unit_test(unknown_until_it_is_known),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -21,7 +21,7 @@ JointArray strokes(const LinkageGeometry& geometry, const JointArray& angle) {
   return {lever[0].stroke_m, lever[1].stroke_m, lever[2].stroke_m};
 }
 
-void little_rotations_are_exact(void**) {
+TEST(little_rotations_are_exact) {
   for (const double angle : {-0.01, -3e-4, 0.0, 1e-7, 2e-3, 0.01}) {
     const Rotation little = Rotation::by_little(angle);
     assert_near(little.cosine, std::cos(angle), 2e-15);
@@ -30,7 +30,7 @@ void little_rotations_are_exact(void**) {
 }
 
 // The ends of the machine file's angle ranges.
-void strokes_span_the_angle_ranges(void**) {
+TEST(strokes_span_the_angle_ranges) {
   const LinkageGeometry geometry(machine_22t().machine.geometry);
   const JointArray low = strokes(geometry, {-0.960, -0.436, 0.52});
   const JointArray high = strokes(geometry, {0.942, -2.618, -2.79});
@@ -42,7 +42,7 @@ void strokes_span_the_angle_ranges(void**) {
   assert_near(high[kBucket], 1.11, 0.006);
 }
 
-void bucket_stroke_falls_with_its_angle(void**) {
+TEST(bucket_stroke_falls_with_its_angle) {
   const LinkageGeometry geometry(machine_22t().machine.geometry);
   for (int i = 0; i <= 331; ++i) {
     const double angle = -2.79 + 0.01 * i;
@@ -50,7 +50,7 @@ void bucket_stroke_falls_with_its_angle(void**) {
   }
 }
 
-void levers_are_the_slopes_of_the_strokes(void**) {
+TEST(levers_are_the_slopes_of_the_strokes) {
   const LinkageGeometry geometry(machine_22t().machine.geometry);
   for (int k = 0; k <= 14; ++k) {
     const double share = 0.02 + 0.068 * k;
@@ -67,7 +67,7 @@ void levers_are_the_slopes_of_the_strokes(void**) {
   }
 }
 
-void angles_reproduce_the_strokes(void**) {
+TEST(angles_reproduce_the_strokes) {
   const ExcavatorPlantProfile profile = machine_22t();
   const LinkageGeometry geometry(profile.machine.geometry);
   for (int k = 0; k <= 20; ++k) {
@@ -83,7 +83,7 @@ void angles_reproduce_the_strokes(void**) {
   }
 }
 
-void tip_of_a_stretched_machine(void**) {
+TEST(tip_of_a_stretched_machine) {
   const LinkageGeometry geometry(machine_22t().machine.geometry);
   plant::TipPose tip = geometry.tip({0.0, 0.0, 0.0});
   assert_near(tip.position_m.x(), 5.7 + 2.9 + 1.5, 1e-12);
@@ -121,7 +121,7 @@ double lifting_moment(const ExcavatorPlantProfile& profile, const JointArray& an
   return (potential(more) - potential(less)) / 2e-5;
 }
 
-void holding_forces_balance_gravity(void**) {
+TEST(holding_forces_balance_gravity) {
   const ExcavatorPlantProfile profile = machine_22t();
   LinkageDynamics links(profile);
   for (const JointArray& pose : {kPose, JointArray{-0.6, -2.2, 0.1}, JointArray{0.8, -0.6, -2.2}}) {
@@ -133,7 +133,7 @@ void holding_forces_balance_gravity(void**) {
   }
 }
 
-void tip_force_works_through_the_tip(void**) {
+TEST(tip_force_works_through_the_tip) {
   ExcavatorPlantProfile profile = machine_22t();
   profile.gravity_mps2 = 0.0;
   LinkageDynamics links(profile);
@@ -155,7 +155,7 @@ void tip_force_works_through_the_tip(void**) {
 
 // Released, the links swing freely, through more than a turn: a check of mass matrix, centrifugal
 // terms and gravity together.
-void free_swing_keeps_its_energy(void**) {
+TEST(free_swing_keeps_its_energy) {
   LinkageDynamics links(machine_22t());
   links.start(kPose, {});
   const double start = links.energy_j();
@@ -179,7 +179,7 @@ void free_swing_keeps_its_energy(void**) {
 
 // What the bucket carries is part of it, in all that the links do: it weighs, and it is slow to
 // move.
-void what_is_carried_moves_with_the_bucket(void**) {
+TEST(what_is_carried_moves_with_the_bucket) {
   ExcavatorPlantProfile loaded = machine_22t();
   const LinkBody fill = {1400.0, 300.0, {0.8, 0.3}};
   loaded.link[kBucket] = together(loaded.link[kBucket], fill);
@@ -210,7 +210,7 @@ void what_is_carried_moves_with_the_bucket(void**) {
   assert_near(carries.holding_forces()[kBoom], empty.holding_forces()[kBoom], 1e-6);
 }
 
-void single_body_swings_with_the_pendulum_period(void**) {
+TEST(single_body_swings_with_the_pendulum_period) {
   // Everything but the boom without mass; small swings about hanging down.
   ExcavatorPlantProfile profile = machine_22t();
   profile.link[kBoom] = {2000.0, 5000.0, {2.5, 0.0}};
@@ -237,7 +237,7 @@ std::array<PistonLoad, kAxisCount> loads(const JointArray& force_n, double coulo
   return load;
 }
 
-void friction_sticks_without_creep(void**) {
+TEST(friction_sticks_without_creep) {
   LinkageDynamics links(machine_22t());
   links.start(kPose, {});
   JointArray force = links.holding_forces();
@@ -253,7 +253,7 @@ void friction_sticks_without_creep(void**) {
   }
 }
 
-void friction_slips_beyond_its_limit(void**) {
+TEST(friction_slips_beyond_its_limit) {
   LinkageDynamics links(machine_22t());
   links.start(kPose, {});
   JointArray force = links.holding_forces();
@@ -265,7 +265,7 @@ void friction_slips_beyond_its_limit(void**) {
   assert_true(links.angles()[kBoom] > kPose[kBoom]);
 }
 
-void friction_brakes_a_piston_to_rest(void**) {
+TEST(friction_brakes_a_piston_to_rest) {
   ExcavatorPlantProfile profile = machine_22t();
   profile.gravity_mps2 = 0.0;
   LinkageDynamics links(profile);
@@ -282,22 +282,4 @@ void friction_brakes_a_piston_to_rest(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(little_rotations_are_exact),
-      cmocka_unit_test(strokes_span_the_angle_ranges),
-      cmocka_unit_test(bucket_stroke_falls_with_its_angle),
-      cmocka_unit_test(levers_are_the_slopes_of_the_strokes),
-      cmocka_unit_test(angles_reproduce_the_strokes),
-      cmocka_unit_test(tip_of_a_stretched_machine),
-      cmocka_unit_test(holding_forces_balance_gravity),
-      cmocka_unit_test(tip_force_works_through_the_tip),
-      cmocka_unit_test(free_swing_keeps_its_energy),
-      cmocka_unit_test(what_is_carried_moves_with_the_bucket),
-      cmocka_unit_test(single_body_swings_with_the_pendulum_period),
-      cmocka_unit_test(friction_sticks_without_creep),
-      cmocka_unit_test(friction_slips_beyond_its_limit),
-      cmocka_unit_test(friction_brakes_a_piston_to_rest),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

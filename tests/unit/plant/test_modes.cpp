@@ -140,7 +140,7 @@ Modes measured_modes(double bulk_modulus_pa, const AxisArray& stroke_m, const ch
   return modes;
 }
 
-void real_oil(void**) {
+TEST(real_oil) {
   const Modes reach = measured_modes(1.4e9, kAtReach, "at reach");
   assert_near(reach.first_hz, 2.75, 0.1);
   assert_near(reach.second_hz, 6.7, 0.25);
@@ -152,7 +152,7 @@ void real_oil(void**) {
   assert_near(close.second_hz, 5.25, 0.2);
 }
 
-void stiff_oil_of_the_paper(void**) {
+TEST(stiff_oil_of_the_paper) {
   const Modes middle = measured_modes(1.0e10, kMiddle, "middle");
   assert_near(middle.first_hz, 8.3, 0.3);
   assert_near(middle.second_hz, 14.8, 0.5);
@@ -163,10 +163,4 @@ void stiff_oil_of_the_paper(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(real_oil),
-      cmocka_unit_test(stiff_oil_of_the_paper),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -14,12 +14,12 @@ constexpr double kK = 4e-6;          // m^3/(s sqrt(Pa))
 constexpr double kStiffPort = 1e10;  // Pa s/m^3
 const PortProtection kProtection{38e6, 5e8, 1e7, -0.1e6};
 
-void coefficient_of_an_area(void**) {
+TEST(coefficient_of_an_area) {
   // C_d A sqrt(2 / rho) for 5 mm^2: 1.48634e-7, by hand.
   assert_near(orifice_coefficient(5e-6, 0.62, 870.0), 1.48634e-7, 1e-12);
 }
 
-void flow_between_ideal_sources(void**) {
+TEST(flow_between_ideal_sources) {
   const WavePort high{9e6, 0.0};
   const WavePort low{5e6, 0.0};
   assert_near(orifice_flow(kK, high, low), kK * 2000.0, 1e-12);
@@ -28,7 +28,7 @@ void flow_between_ideal_sources(void**) {
   assert_near(orifice_flow(0.0, high, low), 0.0, 0.0);
 }
 
-void flow_between_ports_meets_the_law(void**) {
+TEST(flow_between_ports_meets_the_law) {
   for (const double difference : {-2e7, -1e3, -1.0, 1e-3, 1.0, 1e5, 3e7}) {
     const WavePort from{1e7 + difference, 3e8};
     const WavePort to{1e7, 7e8};
@@ -39,24 +39,24 @@ void flow_between_ports_meets_the_law(void**) {
   }
 }
 
-void slope_at_zero_is_finite(void**) {
+TEST(slope_at_zero_is_finite) {
   const WavePort from{1e-6, 3e8};
   const WavePort to{0.0, 7e8};
   assert_near(orifice_flow(kK, from, to) / 1e-6, 1e-9, 1e-15);
 }
 
-void orifices_in_a_row(void**) {
+TEST(orifices_in_a_row) {
   assert_near(series_coefficient(3e-6, 4e-6), 2.4e-6, 1e-18);
   assert_near(series_coefficient(3e-6, 0.0), 0.0, 0.0);
 }
 
-void unprotected_between_the_limits(void**) {
+TEST(unprotected_between_the_limits) {
   const WavePort port{20e6, 1e9};
   const double q = protected_flow(port, kProtection, [](const WavePort&) { return 1e-3; });
   assert_near(q, 1e-3, 0.0);
 }
 
-void relief_opens_above_its_pressure(void**) {
+TEST(relief_opens_above_its_pressure) {
   // A pump of constant flow into a closed port: all of it leaves through the relief.
   const double pumped = 2e-3;
   const WavePort port{kProtection.relief_pa + 0.8e6, kStiffPort};
@@ -67,7 +67,7 @@ void relief_opens_above_its_pressure(void**) {
   assert_near(q, pumped - relieved, 1e-12);
 }
 
-void make_up_holds_the_port_near_ambient(void**) {
+TEST(make_up_holds_the_port_near_ambient) {
   const double drawn = 6e-3;
   const WavePort port{0.1e6, kStiffPort};
   const double q = protected_flow(port, kProtection, [&](const WavePort&) { return -drawn; });
@@ -77,7 +77,7 @@ void make_up_holds_the_port_near_ambient(void**) {
 
 // Deep below boiling, as a void leaves it: tank feeds the void with what 0.1 MPa push through the
 // check, and an orifice sees the boiling pressure.
-void a_port_that_boils_pulls_no_harder(void**) {
+TEST(a_port_that_boils_pulls_no_harder) {
   const WavePort port{-5e6, 1e8};
   double drawn = 0.0;
   const double q = protected_flow(port, kProtection, [&](const WavePort& p) {
@@ -88,7 +88,7 @@ void a_port_that_boils_pulls_no_harder(void**) {
 }
 
 // Nearly full: what flows in fills it and then raises its pressure, in the same step.
-void filling_up_does_not_overshoot(void**) {
+TEST(filling_up_does_not_overshoot) {
   const WavePort port{-0.2e6, kStiffPort};
   const double q = protected_flow(port, kProtection, [&](const WavePort& p) {
     return orifice_flow(kK, {20e6, 0.0}, p);
@@ -107,7 +107,7 @@ double gallery_root_by_18(double q_out, double p_in, double c_d, double c_r) {
   return (c_r * std::sqrt(q_out * q_out + span * p_in) - c_d * q_out) / span;
 }
 
-void gallery_with_check_shut(void**) {
+TEST(gallery_with_check_shut) {
   const ReturnFlow flow = solve_gallery(5e-6, 7e-7, 1.1e-6, {4e6, 0.0}, {6e6, 0.0});
   const double k = 5e-6 * 7e-7 / std::sqrt(5e-6 * 5e-6 + 7e-7 * 7e-7);
   assert_near(flow.out_m3ps, k * 2000.0, 1e-12);
@@ -115,7 +115,7 @@ void gallery_with_check_shut(void**) {
   assert_near(flow.gallery_pa, std::pow(k * 2000.0 / 7e-7, 2), 1.0);
 }
 
-void gallery_with_check_open_is_equation_18(void**) {
+TEST(gallery_with_check_open_is_equation_18) {
   for (const double line_pa : {0.0, 0.2e6, 1e6, 5e6}) {
     const ReturnFlow flow = solve_gallery(5e-6, 7e-7, 1.1e-6, {9e6, 0.0}, {line_pa, 0.0});
     assert_true(flow.regenerated_m3ps > 0.0);
@@ -126,7 +126,7 @@ void gallery_with_check_open_is_equation_18(void**) {
   }
 }
 
-void gallery_balances_with_compliant_ports(void**) {
+TEST(gallery_balances_with_compliant_ports) {
   const WavePort chamber{12e6, 2e8};
   const WavePort line{1e6, 4e8};
   const ReturnFlow flow = solve_gallery(3e-6, 1.2e-6, 2e-6, chamber, line);
@@ -134,7 +134,7 @@ void gallery_balances_with_compliant_ports(void**) {
   assert_near(flow.out_m3ps, flow.regenerated_m3ps + 1.2e-6 * std::sqrt(flow.gallery_pa), 1e-12);
 }
 
-void gallery_draws_from_tank_below_ambient(void**) {
+TEST(gallery_draws_from_tank_below_ambient) {
   const ReturnFlow flow = solve_gallery(3e-6, 1.2e-6, 2e-6, {-1e4, 0.0}, {-2e4, 0.0});
   assert_true(flow.out_m3ps < 0.0);
   assert_near(flow.gallery_pa, -std::pow(flow.out_m3ps / 1.2e-6, 2), 1e-6);
@@ -143,22 +143,4 @@ void gallery_draws_from_tank_below_ambient(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(coefficient_of_an_area),
-      cmocka_unit_test(flow_between_ideal_sources),
-      cmocka_unit_test(flow_between_ports_meets_the_law),
-      cmocka_unit_test(slope_at_zero_is_finite),
-      cmocka_unit_test(orifices_in_a_row),
-      cmocka_unit_test(unprotected_between_the_limits),
-      cmocka_unit_test(relief_opens_above_its_pressure),
-      cmocka_unit_test(make_up_holds_the_port_near_ambient),
-      cmocka_unit_test(a_port_that_boils_pulls_no_harder),
-      cmocka_unit_test(filling_up_does_not_overshoot),
-      cmocka_unit_test(gallery_with_check_shut),
-      cmocka_unit_test(gallery_with_check_open_is_equation_18),
-      cmocka_unit_test(gallery_balances_with_compliant_ports),
-      cmocka_unit_test(gallery_draws_from_tank_below_ambient),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -14,7 +14,7 @@ using dbc::RawState;
 
 constexpr double kSet = 0.643;  // the profile's swash
 
-void valve_state_is_the_plants(void**) {
+TEST(valve_state_is_the_plants) {
   Rig rig;
   rig.command_for(32, true, 0.5);
   auto valve = last<bus::ValveState>(rig);
@@ -30,7 +30,7 @@ void valve_state_is_the_plants(void**) {
   assert_true(valve.boom_spool_ratio.value > 0.3);  // enable is off, the spool on its way
 }
 
-void each_spool_has_its_place_on_the_bus(void**) {
+TEST(each_spool_has_its_place_on_the_bus) {
   Rig rig;
   for (int i = 0; i < 60; ++i) {
     bus::SpoolCommand message;
@@ -58,7 +58,7 @@ void pump_for(Rig& rig, int cycles, dbc::Physical one, dbc::Physical two) {
 constexpr dbc::Physical kNotCommanded{0.0, RawState::kNotAvailable};
 dbc::Physical swash_of(double ratio) { return {ratio, RawState::kValid}; }
 
-void pumps_follow_their_commands(void**) {
+TEST(pumps_follow_their_commands) {
   Rig rig;
   pump_for(rig, 4, swash_of(0.5), swash_of(0.3));
   assert_near(rig.machine.plant().swash_ratios()[0], kSet, 0.0);  // not confirmed yet
@@ -78,7 +78,7 @@ void pumps_follow_their_commands(void**) {
   assert_int_equal(rig.machine.pump_counters().timeouts, 0);
 }
 
-void pumps_go_back_without_a_command(void**) {
+TEST(pumps_go_back_without_a_command) {
   Rig rig;
   pump_for(rig, 201, swash_of(0.3), swash_of(0.3));  // the last one came in the last cycle
   rig.cycles(9);
@@ -90,7 +90,7 @@ void pumps_go_back_without_a_command(void**) {
   assert_near(rig.machine.plant().swash_ratios()[0], kSet, 1e-6);
 }
 
-void wrong_pump_commands_are_refused(void**) {
+TEST(wrong_pump_commands_are_refused) {
   Rig rig;
   for (int i = 0; i < 20; ++i) {
     CanFrame frame = rig.frame_of(bus::PumpCommand{swash_of(0.3), swash_of(0.3)});
@@ -104,7 +104,7 @@ void wrong_pump_commands_are_refused(void**) {
 }
 
 // A command of what the profile sets changes nothing, to the last bit.
-void the_set_swash_as_command_is_no_change(void**) {
+TEST(the_set_swash_as_command_is_no_change) {
   Rig commanded;
   Rig left;
   for (int i = 0; i < 100; ++i) {
@@ -128,7 +128,7 @@ CanFrame cut_command(Rig& rig, dbc::excavator::SpoolCommand::PilotCut cut, RawSt
   return rig.frame_of(message);
 }
 
-void a_held_spool_obeys_the_pilot_cut_only(void**) {
+TEST(a_held_spool_obeys_the_pilot_cut_only) {
   using Cut = bus::SpoolCommand::PilotCut;
   Rig rig;
   rig.machine.faults().axis[kBoom].spool_held_ratio = 0.3;
@@ -158,7 +158,7 @@ void a_held_spool_obeys_the_pilot_cut_only(void**) {
   assert_near(rig.boom_spool(), 0.5, 1e-3);
 }
 
-void a_spool_opens_uncommanded(void**) {
+TEST(a_spool_opens_uncommanded) {
   Rig rig;
   rig.machine.faults().axis[kBoom].spool_offset_ratio = 0.2;
   rig.cycles(30);
@@ -170,7 +170,7 @@ void a_spool_opens_uncommanded(void**) {
 
 double shown_boom(const Rig& rig) { return last<bus::BoomStroke>(rig).boom_stroke_m.value; }
 
-void stroke_sensors_fail_in_their_ways(void**) {
+TEST(stroke_sensors_fail_in_their_ways) {
   Rig rig;
   rig.command_for(30, true, 0.5);
   StrokeFault& fault = rig.machine.faults().axis[kBoom].stroke;
@@ -194,7 +194,7 @@ void stroke_sensors_fail_in_their_ways(void**) {
   assert_near(shown_boom(rig), rig.machine.plant().strokes_m()[kBoom], 1e-4);
 }
 
-void pressure_sensors_fail_in_their_ways(void**) {
+TEST(pressure_sensors_fail_in_their_ways) {
   Rig rig;
   rig.cycle();
   const auto before = last<bus::BoomPressure>(rig);
@@ -217,7 +217,7 @@ void pressure_sensors_fail_in_their_ways(void**) {
   assert_near(shown.boom_cap_pressure_pa.value, rig.machine.plant().cap_pressures_pa()[0], 501.0);
 }
 
-void swash_and_its_feedback_fail(void**) {
+TEST(swash_and_its_feedback_fail) {
   Rig rig;
   rig.machine.faults().pump[0].shown_swash_ratio = 0.9;
   rig.machine.faults().pump[1].actual_swash_ratio = 0.2;
@@ -228,7 +228,7 @@ void swash_and_its_feedback_fail(void**) {
   assert_near(last<bus::PumpState>(rig).pump2_swash_ratio.value, 0.2, 1e-5);
 }
 
-void identity_can_be_wrong(void**) {
+TEST(identity_can_be_wrong) {
   Rig rig;
   rig.machine.faults().wrong_identity = true;
   rig.cycle();
@@ -238,7 +238,7 @@ void identity_can_be_wrong(void**) {
   assert_int_equal(last<bus::MachineIdentity>(rig).profile_hash.value, kHash);
 }
 
-void commands_can_be_lost(void**) {
+TEST(commands_can_be_lost) {
   Rig rig;
   rig.command_for(30, true, 0.5);
   rig.machine.faults().loses_spool_commands = true;
@@ -253,7 +253,7 @@ void commands_can_be_lost(void**) {
   assert_true(rig.machine.spools_enabled());
 }
 
-void counters_can_freeze(void**) {
+TEST(counters_can_freeze) {
   Rig rig;
   rig.cycles(10);
   rig.machine.faults().set_frozen_counter(bus::ArmStroke::kId, true);
@@ -269,7 +269,7 @@ void counters_can_freeze(void**) {
   assert_int_equal(counter_of(rig.seen[bus::ArmStroke::kId][21]), 11);
 }
 
-void data_ids_can_be_swapped(void**) {
+TEST(data_ids_can_be_swapped) {
   Rig rig;
   rig.machine.faults().frames.swapped_data_ids = {bus::BoomStroke::kId, bus::ArmStroke::kId};
   rig.cycle();
@@ -284,7 +284,7 @@ void data_ids_can_be_swapped(void**) {
   assert_true(fits(bus::BoomStroke::kId, bus::BoomStroke::kDataId));
 }
 
-void the_stream_can_be_late(void**) {
+TEST(the_stream_can_be_late) {
   Rig rig;
   rig.cycles(10);
   rig.machine.faults().frames.delay_us = 200 * kMillisecondUs;
@@ -303,24 +303,4 @@ void the_stream_can_be_late(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(valve_state_is_the_plants),
-      cmocka_unit_test(each_spool_has_its_place_on_the_bus),
-      cmocka_unit_test(pumps_follow_their_commands),
-      cmocka_unit_test(pumps_go_back_without_a_command),
-      cmocka_unit_test(wrong_pump_commands_are_refused),
-      cmocka_unit_test(the_set_swash_as_command_is_no_change),
-      cmocka_unit_test(a_held_spool_obeys_the_pilot_cut_only),
-      cmocka_unit_test(a_spool_opens_uncommanded),
-      cmocka_unit_test(stroke_sensors_fail_in_their_ways),
-      cmocka_unit_test(pressure_sensors_fail_in_their_ways),
-      cmocka_unit_test(swash_and_its_feedback_fail),
-      cmocka_unit_test(identity_can_be_wrong),
-      cmocka_unit_test(commands_can_be_lost),
-      cmocka_unit_test(counters_can_freeze),
-      cmocka_unit_test(data_ids_can_be_swapped),
-      cmocka_unit_test(the_stream_can_be_late),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -14,7 +14,7 @@ namespace bus = dbc::excavator;
 using namespace graben::plant::test;
 using dbc::RawState;
 
-void messages_come_at_their_rates(void**) {
+TEST(messages_come_at_their_rates) {
   Rig rig;
   rig.cycles(200);
   for (const std::uint32_t id :
@@ -30,7 +30,7 @@ void messages_come_at_their_rates(void**) {
   assert_int_equal(rig.seen.size(), 11);
 }
 
-void frames_are_protected(void**) {
+TEST(frames_are_protected) {
   Rig rig;
   rig.cycles(100);
   check_protection<bus::BoomStroke>(rig);
@@ -45,7 +45,7 @@ void frames_are_protected(void**) {
 }
 
 /// Off by their zeros always, and by what a seed draws beside them.
-void sensors_are_off_by_their_zeros(void**) {
+TEST(sensors_are_off_by_their_zeros) {
   SensorErrors errors;
   errors.stroke_bias_m = 2e-3;
   errors.pressure_range_pa = 40e6;
@@ -65,7 +65,7 @@ void sensors_are_off_by_their_zeros(void**) {
   assert_near(biased.stroke_m(kArm, 0.5), plain.stroke_m(kArm, 0.5) - 0.01, 1e-12);
 }
 
-void values_are_the_plants(void**) {
+TEST(values_are_the_plants) {
   Rig rig;
   rig.cycles(3);
   const ExcavatorPlant& plant = rig.machine.plant();
@@ -88,7 +88,7 @@ void values_are_the_plants(void**) {
   assert_int_equal(last<bus::MachineIdentity>(rig).dbc_version.value, bus::kDbcVersion);
 }
 
-void sensors_show_what_they_can(void**) {
+TEST(sensors_show_what_they_can) {
   SensorErrors errors;
   errors.stroke_resolution_m = 1e-4;
   errors.pressure_range_pa = 25e6;
@@ -102,7 +102,7 @@ void sensors_show_what_they_can(void**) {
   assert_near(sensors.rod_pressure_pa(kArm, 30e6), 25e6, 0.0);
 }
 
-void commands_move_the_spool(void**) {
+TEST(commands_move_the_spool) {
   Rig rig;
   rig.command_for(2, true, 0.5);
   assert_false(rig.machine.spools_enabled());  // the sequence is not confirmed yet
@@ -113,7 +113,7 @@ void commands_move_the_spool(void**) {
   assert_int_equal(rig.machine.counters().accepted, 30);
 }
 
-void plant_runs_10_ms_a_cycle(void**) {
+TEST(plant_runs_10_ms_a_cycle) {
   Rig rig;
   rig.command_for(30, true, 0.5);  // the third is the first to be accepted
   ExcavatorPlant alone(machine_22t(), {0.7, 0.7, 0.6});
@@ -124,7 +124,7 @@ void plant_runs_10_ms_a_cycle(void**) {
   assert_near(rig.machine.plant().strokes_m()[kBoom], alone.strokes_m()[kBoom], 0.0);
 }
 
-void enable_off_is_neutral_at_once(void**) {
+TEST(enable_off_is_neutral_at_once) {
   Rig rig;
   rig.command_for(30, true, 0.5);
   rig.command_for(1, false, 0.5);
@@ -134,7 +134,7 @@ void enable_off_is_neutral_at_once(void**) {
   assert_near(rig.boom_spool(), 0.0, 1e-4);
 }
 
-void silence_is_neutral_after_100_ms(void**) {
+TEST(silence_is_neutral_after_100_ms) {
   Rig rig;
   rig.command_for(30, true, 0.5);  // the last one came 10 ms ago
   rig.cycles(9);
@@ -150,7 +150,7 @@ void silence_is_neutral_after_100_ms(void**) {
 }
 
 /// After a silence commands that are right and in order, as a queue lets them go: not before Off.
-void a_silence_ends_with_enable_off(void**) {
+TEST(a_silence_ends_with_enable_off) {
   Rig rig;
   rig.command_for(30, true, 0.5);
   rig.cycles(10);
@@ -163,7 +163,7 @@ void a_silence_ends_with_enable_off(void**) {
 }
 
 /// An enable that says 'error' is no Off.
-void an_unusable_enable_does_not_end_a_silence(void**) {
+TEST(an_unusable_enable_does_not_end_a_silence) {
   Rig rig;
   rig.command_for(30, true, 0.5);
   rig.cycles(10);
@@ -175,7 +175,7 @@ void an_unusable_enable_does_not_end_a_silence(void**) {
   assert_false(rig.machine.spools_enabled());
 }
 
-void wrong_frames_are_no_sign_of_life(void**) {
+TEST(wrong_frames_are_no_sign_of_life) {
   using Spoil = void (*)(CanFrame&);
   const Spoil spoils[] = {
       [](CanFrame& f) { f.data[3] = static_cast<std::uint8_t>(f.data[3] ^ 0x10U); },
@@ -202,7 +202,7 @@ void wrong_frames_are_no_sign_of_life(void**) {
   }
 }
 
-void unusable_values_are_neutral(void**) {
+TEST(unusable_values_are_neutral) {
   for (const RawState state : {RawState::kError, RawState::kNotAvailable}) {
     for (int which = 0; which < 4; ++which) {
       Rig rig;
@@ -220,7 +220,7 @@ void unusable_values_are_neutral(void**) {
   }
 }
 
-void command_reaches_every_spool(void**) {
+TEST(command_reaches_every_spool) {
   Rig rig;
   for (int i = 0; i < 60; ++i) {
     bus::SpoolCommand message;
@@ -236,7 +236,7 @@ void command_reaches_every_spool(void**) {
   assert_near(travel[kBucket], 0.18, 1e-6);
 }
 
-void flood_does_not_starve_the_command(void**) {
+TEST(flood_does_not_starve_the_command) {
   Rig rig;
   for (int i = 0; i < 5; ++i) {
     for (int k = 0; k < 200; ++k) {
@@ -249,7 +249,7 @@ void flood_does_not_starve_the_command(void**) {
   assert_true(rig.machine.spools_enabled());
 }
 
-void silenced_messages_stop(void**) {
+TEST(silenced_messages_stop) {
   Rig rig;
   rig.machine.faults().set_silent(bus::ArmStroke::kId, true);
   rig.driver.set_silent(true);
@@ -263,7 +263,7 @@ void silenced_messages_stop(void**) {
   check_protection<bus::ArmStroke>(rig);
 }
 
-void strokes_can_fail(void**) {
+TEST(strokes_can_fail) {
   Rig rig;
   rig.machine.faults().set_stroke_state(kArm, RawState::kError);
   rig.machine.faults().set_stroke_state(kBucket, RawState::kNotAvailable);
@@ -273,7 +273,7 @@ void strokes_can_fail(void**) {
   assert_true(last<bus::BucketStroke>(rig).bucket_stroke_m.state == RawState::kNotAvailable);
 }
 
-void operator_follows_the_schedule(void**) {
+TEST(operator_follows_the_schedule) {
   Rig rig;
   rig.driver.set_schedule({{100'000, {true, OperatorMode::kAutomatic, Task::kDig, 0.5}},
                            {200'000, {false, OperatorMode::kManual, Task::kNone, 1.0}}});
@@ -294,7 +294,7 @@ void operator_follows_the_schedule(void**) {
 }
 
 /// A station without levers sends none; windows come by turns, of the drives that have one.
-void hands_are_sent_where_they_are(void**) {
+TEST(hands_are_sent_where_they_are) {
   Rig rig;
   rig.cycles(20);
   assert_int_equal(rig.seen.count(bus::OperatorAxes::kId), 0);
@@ -335,27 +335,4 @@ void hands_are_sent_where_they_are(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(messages_come_at_their_rates),
-      cmocka_unit_test(frames_are_protected),
-      cmocka_unit_test(sensors_are_off_by_their_zeros),
-      cmocka_unit_test(values_are_the_plants),
-      cmocka_unit_test(sensors_show_what_they_can),
-      cmocka_unit_test(commands_move_the_spool),
-      cmocka_unit_test(plant_runs_10_ms_a_cycle),
-      cmocka_unit_test(enable_off_is_neutral_at_once),
-      cmocka_unit_test(silence_is_neutral_after_100_ms),
-      cmocka_unit_test(a_silence_ends_with_enable_off),
-      cmocka_unit_test(an_unusable_enable_does_not_end_a_silence),
-      cmocka_unit_test(wrong_frames_are_no_sign_of_life),
-      cmocka_unit_test(unusable_values_are_neutral),
-      cmocka_unit_test(command_reaches_every_spool),
-      cmocka_unit_test(flood_does_not_starve_the_command),
-      cmocka_unit_test(silenced_messages_stop),
-      cmocka_unit_test(strokes_can_fail),
-      cmocka_unit_test(operator_follows_the_schedule),
-      cmocka_unit_test(hands_are_sent_where_they_are),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -25,7 +25,7 @@ void lift(ExcavatorPlant& plant, double duty, TimeUs duration_us) {
   plant.advance(duration_us);
 }
 
-void without_a_load_the_line_keeps_the_margin(void**) {
+TEST(without_a_load_the_line_keeps_the_margin) {
   ExcavatorPlant plant(machine("excavator_22t_ls"), kStart);
   const double margin_pa = plant.profile().machine.pump[1].regulator.margin_pa;
   assert_near(plant.pump_pressures_pa()[1], margin_pa, 1e-3 * margin_pa);
@@ -35,7 +35,7 @@ void without_a_load_the_line_keeps_the_margin(void**) {
   assert_near(plant.swash_ratios()[1], 2.3e-3, 3e-4);
 }
 
-void under_a_load_it_is_the_margin_above(void**) {
+TEST(under_a_load_it_is_the_margin_above) {
   ExcavatorPlant plant(machine("excavator_22t_ls"), kStart);
   lift(plant, 0.45, kSecondUs);
   const double load_pa = plant.cap_pressures_pa()[kBoom];
@@ -46,7 +46,7 @@ void under_a_load_it_is_the_margin_above(void**) {
 }
 
 /// Over the metering edge there is the margin, whatever hangs on the bucket.
-void a_compensated_drive_goes_as_fast_under_any_load(void**) {
+TEST(a_compensated_drive_goes_as_fast_under_any_load) {
   const ExcavatorPlantProfile profile = machine("excavator_22t_ls");
   double speed_mps[2];
   double load_pa[2];
@@ -81,7 +81,7 @@ double swash_by_diagram(double felt) {
   return 1.0 - 0.85 * std::min(1.0, std::max(0.0, gone));
 }
 
-void at_rest_the_bypass_keeps_the_pump_low(void**) {
+TEST(at_rest_the_bypass_keeps_the_pump_low) {
   ExcavatorPlant plant(machine("excavator_22t_nfc"), kStart);
   for (int second = 0; second < 2; ++second) {
     assert_near(plant.swash_ratios()[1], swash_by_diagram(felt_pa(plant, 1)), 5e-3);
@@ -90,7 +90,7 @@ void at_rest_the_bypass_keeps_the_pump_low(void**) {
   }
 }
 
-void a_spool_that_closes_the_bypass_calls_for_flow(void**) {
+TEST(a_spool_that_closes_the_bypass_calls_for_flow) {
   ExcavatorPlant plant(machine("excavator_22t_nfc"), kStart);
   lift(plant, 0.385, kSecondUs);
   const double part = plant.swash_ratios()[1];
@@ -102,7 +102,7 @@ void a_spool_that_closes_the_bypass_calls_for_flow(void**) {
 }
 
 /// A whole stroke takes at least the time that the profile says.
-void a_regulator_takes_its_time(void**) {
+TEST(a_regulator_takes_its_time) {
   for (const char* name : {"excavator_22t_ls", "excavator_22t_nfc"}) {
     ExcavatorPlant plant(machine(name), kStart);
     const double start = plant.swash_ratios()[1];
@@ -115,14 +115,4 @@ void a_regulator_takes_its_time(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(without_a_load_the_line_keeps_the_margin),
-      cmocka_unit_test(under_a_load_it_is_the_margin_above),
-      cmocka_unit_test(a_compensated_drive_goes_as_fast_under_any_load),
-      cmocka_unit_test(at_rest_the_bypass_keeps_the_pump_low),
-      cmocka_unit_test(a_spool_that_closes_the_bypass_calls_for_flow),
-      cmocka_unit_test(a_regulator_takes_its_time),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

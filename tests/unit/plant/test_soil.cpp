@@ -27,7 +27,7 @@ SoilKind soil_of(double friction_deg, double cohesion_pa) {
 
 /// A smooth upright blade: Rankine's passive pressure, N_gamma = K_p / 2, N_c = 2 sqrt(K_p),
 /// N_q = K_p, on a surface at 45 degrees less half of phi. The search goes in whole degrees.
-void an_upright_smooth_blade_meets_passive_pressure(void**) {
+TEST(an_upright_smooth_blade_meets_passive_pressure) {
   for (const double friction_deg : {10.0, 20.0, 30.0, 40.0}) {
     const SoilKind soil = soil_of(friction_deg, 5e3);
     const double k_p = std::pow(std::tan(0.25 * kPi + 0.5 * soil.friction_rad), 2);
@@ -45,7 +45,7 @@ void an_upright_smooth_blade_meets_passive_pressure(void**) {
 }
 
 /// A rough upright one: Coulomb's passive pressure with wall friction.
-void a_rough_blade_meets_coulombs_pressure(void**) {
+TEST(a_rough_blade_meets_coulombs_pressure) {
   for (const double wall_deg : {5.0, 15.0, 20.0}) {
     SoilKind soil = soil_of(30.0, 0.0);
     soil.wall_friction_rad = wall_deg * kPi / 180.0;
@@ -63,7 +63,7 @@ void a_rough_blade_meets_coulombs_pressure(void**) {
 }
 
 /// A flatter blade cuts with less force, and is drawn down; a rough one needs more.
-void rake_and_roughness_tell(void**) {
+TEST(rake_and_roughness_tell) {
   const SoilKind loam = *soil_kind("loam");
   const auto force_at = [](const SoilKind& soil, double rake_deg) {
     const double rake = rake_deg * kPi / 180.0;
@@ -80,7 +80,7 @@ void rake_and_roughness_tell(void**) {
 
 /// Prandtl's 5.14 c of a soil without friction; Vesic's table at 30 degrees: N_q 18.4,
 /// N_gamma 22.4.
-void ground_bears_as_tables_say(void**) {
+TEST(ground_bears_as_tables_say) {
   assert_near(bearing_pa(soil_of(0.0, 10e3), 0.2, 0.0, kGravity), 10e3 * (kPi + 2.0), 1.0);
   const SoilKind sand = soil_of(30.0, 0.0);
   const double weight = sand.density_kgpm3 * kGravity;
@@ -109,7 +109,7 @@ Eigen::Vector2d drag(BucketSoil& soil, double from_m, double to_m, double height
 }
 
 /// A bank of soil is the same soil, higher up.
-void soil_lies_at_its_level(void**) {
+TEST(soil_lies_at_its_level) {
   DiggingProfile profile = digging("loam");
   BucketSoil low(profile, 1, kStep_s);
   profile.level_m = 0.75;
@@ -122,7 +122,7 @@ void soil_lies_at_its_level(void**) {
 }
 
 /// What is cut is in the bucket, in the ground it is missing, and nothing is lost.
-void volume_is_kept(void**) {
+TEST(volume_is_kept) {
   BucketSoil soil(digging("loam"), 1, kStep_s);
   static_cast<void>(soil.step({7.0, -0.2, 1.4, 0.0}));
   const double room_m3 = soil.ground().firm_change_m3();
@@ -136,7 +136,7 @@ void volume_is_kept(void**) {
 }
 
 /// Whatever its width and wherever it stands to the cells, the edge leaves no ridge behind it.
-void no_ridge_stays_behind_the_edge(void**) {
+TEST(no_ridge_stays_behind_the_edge) {
   DiggingProfile profile = digging("loam");
   profile.bucket.width_m = 1.37;
   for (const double swing_rad : {0.0, 0.4, 0.785, 2.0}) {
@@ -156,7 +156,7 @@ void no_ridge_stays_behind_the_edge(void**) {
 
 /// Forces as the equation says, against the motion; none in the air, none of them with power over a
 /// bucket that stands.
-void it_resists_motion_only(void**) {
+TEST(it_resists_motion_only) {
   BucketSoil soil(digging("loam"), 1, kStep_s);
   assert_near(soil.step({7.0, 0.5, 1.2, 0.0}).force_n.norm(), 0.0, 1e-9);
   drag(soil, 7.0, 6.8, -0.2, 1.2);
@@ -169,7 +169,7 @@ void it_resists_motion_only(void**) {
 }
 
 /// Deeper and stronger ground resists more.
-void depth_and_soil_tell(void**) {
+TEST(depth_and_soil_tell) {
   const auto force_n = [](const char* name, double depth_m) {
     BucketSoil soil(digging(name), 1, kStep_s);
     static_cast<void>(soil.step({7.0, -depth_m, 1.2, 0.0}));
@@ -181,7 +181,7 @@ void depth_and_soil_tell(void**) {
 }
 
 /// A full bucket takes no more; tipped, it empties onto a heap that lies at its angle of repose.
-void it_fills_and_dumps(void**) {
+TEST(it_fills_and_dumps) {
   BucketSoil soil(digging("sand"), 1, kStep_s);
   static_cast<void>(soil.step({8.0, -0.3, 1.2, 0.0}));
   drag(soil, 8.0, 4.5, -0.3, 1.2);
@@ -219,7 +219,7 @@ void it_fills_and_dumps(void**) {
 }
 
 /// A wall of loam stands, one of sand falls in.
-void walls_stand_by_cohesion(void**) {
+TEST(walls_stand_by_cohesion) {
   assert_true(standing_height_m(*soil_kind("loam"), kGravity) > 1.0);
   assert_true(standing_height_m(*soil_kind("sand"), kGravity) < 0.3);
   const auto beside_m = [](const char* name) {
@@ -239,7 +239,7 @@ void walls_stand_by_cohesion(void**) {
 }
 
 /// Pressed down flat, the floor comes to rest on the ground; the ground bears, then gives way.
-void the_floor_bears(void**) {
+TEST(the_floor_bears) {
   const DiggingProfile profile = digging("loam");
   BucketSoil soil(profile, 1, kStep_s);
   const double flat_rad = profile.bucket.floor_rad;
@@ -258,20 +258,4 @@ void the_floor_bears(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(an_upright_smooth_blade_meets_passive_pressure),
-      cmocka_unit_test(a_rough_blade_meets_coulombs_pressure),
-      cmocka_unit_test(rake_and_roughness_tell),
-      cmocka_unit_test(ground_bears_as_tables_say),
-      cmocka_unit_test(soil_lies_at_its_level),
-      cmocka_unit_test(volume_is_kept),
-      cmocka_unit_test(no_ridge_stays_behind_the_edge),
-      cmocka_unit_test(it_resists_motion_only),
-      cmocka_unit_test(depth_and_soil_tell),
-      cmocka_unit_test(it_fills_and_dumps),
-      cmocka_unit_test(walls_stand_by_cohesion),
-      cmocka_unit_test(the_floor_bears),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -32,7 +32,7 @@ Spool settled_at(const ExcavatorPlantProfile& profile, double travel_ratio) {
   return spool;
 }
 
-void step_response_is_the_critically_damped_one(void**) {
+TEST(step_response_is_the_critically_damped_one) {
   ExcavatorPlantProfile profile = machine_22t();
   profile.spool[kBoom].time_constant_s = 0.02;
   profile.spool[kBoom].damping = 1.0;
@@ -45,7 +45,7 @@ void step_response_is_the_critically_damped_one(void**) {
   }
 }
 
-void travel_is_limited(void**) {
+TEST(travel_is_limited) {
   ExcavatorPlantProfile profile = machine_22t();
   assert_near(settled_at(profile, 3.0).travel_ratio(), 1.0, 1e-9);
   Spool beyond(profile.spool[kBoom]);
@@ -66,7 +66,7 @@ void travel_is_limited(void**) {
   }
 }
 
-void deadband_is_shut(void**) {
+TEST(deadband_is_shut) {
   ExcavatorPlantProfile profile = machine_22t();
   set_deadband(profile, 0.2, 0.2);
   for (const double travel : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
@@ -75,7 +75,7 @@ void deadband_is_shut(void**) {
   }
 }
 
-void opening_follows_the_travel_outside_it(void**) {
+TEST(opening_follows_the_travel_outside_it) {
   ExcavatorPlantProfile profile = machine_22t();
   set_deadband(profile, 0.2, 0.2);
   set_exponent(profile, 1.6);
@@ -85,7 +85,7 @@ void opening_follows_the_travel_outside_it(void**) {
   }
 }
 
-void bypass_closes_continuously(void**) {
+TEST(bypass_closes_continuously) {
   ExcavatorPlantProfile profile = machine_22t();
   set_deadband(profile, 0.2, 0.2);
   profile.spool[kBoom].bypass_closing_travel = 0.1;
@@ -98,7 +98,7 @@ void bypass_closes_continuously(void**) {
 }
 
 /// Each side opens from its own edge on and is full at its own end, and the bypass is closed there.
-void each_side_has_its_own_deadband(void**) {
+TEST(each_side_has_its_own_deadband) {
   ExcavatorPlantProfile profile = machine_22t();
   set_deadband(profile, 0.17, 0.23);
   set_exponent(profile, 1.0);
@@ -120,7 +120,7 @@ void each_side_has_its_own_deadband(void**) {
 
 /// The opening begins half a softness before the edge, has a parabola's start there, and is as of a
 /// sharp edge from half a softness behind it on; the bypass is closed where it begins.
-void a_soft_edge_opens_by_a_parabola(void**) {
+TEST(a_soft_edge_opens_by_a_parabola) {
   ExcavatorPlantProfile profile = machine_22t();
   set_deadband(profile, 0.4, 0.5);
   set_exponent(profile, 1.0);
@@ -146,7 +146,7 @@ void a_soft_edge_opens_by_a_parabola(void**) {
 }
 
 /// What a bypass needs to close must fit before the side that opens first.
-void a_bypass_is_open_at_neutral(void**) {
+TEST(a_bypass_is_open_at_neutral) {
   SpoolDynamics spool{0.02, 1.0, {0.3, 0.1, 1.0}, {0.1, 0.06, 1.0}, 0.1};
   fit_bypass(spool);
   assert_near(spool.bypass_closing_travel, 0.07, 1e-12);
@@ -157,7 +157,7 @@ void a_bypass_is_open_at_neutral(void**) {
 
 /// Each side's duty is as late as its own pilot; where both press, the spool goes by the
 /// difference.
-void each_side_has_its_own_dead_time(void**) {
+TEST(each_side_has_its_own_dead_time) {
   PilotValve pilot({0.003, 0.001}, 0.0, 1e-3);
   const double duty[] = {0.5, 0.5, 0.5, -0.4, -0.4, -0.4, -0.4, -0.4, -0.4};
   const double sent[] = {0.0, 0.0, 0.0, 0.5, 0.1, 0.1, -0.4, -0.4, -0.4};
@@ -167,7 +167,7 @@ void each_side_has_its_own_dead_time(void**) {
 }
 
 /// First order, behind the dead time; without pilot pressure nothing is left of it.
-void pilot_pressure_lags(void**) {
+TEST(pilot_pressure_lags) {
   constexpr double kLag_s = 0.05;
   PilotValve pilot(0.01, kLag_s, kStep);
   for (int i = 0; i < 100; ++i) {
@@ -186,7 +186,7 @@ void pilot_pressure_lags(void**) {
   assert_near(pilot.step(0.8, false), -0.3, 0.0);
 }
 
-void area_factors_are_the_plants(void**) {
+TEST(area_factors_are_the_plants) {
   ExcavatorPlantProfile profile = machine_22t();
   const SpoolProfile nominal = profile.section(kArm).edges;
   profile.area_factors[kArm] = {0.7, 0.8, 1.1, 1.3};
@@ -200,7 +200,7 @@ void area_factors_are_the_plants(void**) {
 }
 
 /// The plant's figure is the one that counts, not the design's.
-void the_plants_exponent_goes_before_the_designs(void**) {
+TEST(the_plants_exponent_goes_before_the_designs) {
   ExcavatorPlantProfile profile = machine_22t();
   assert_near(profile.section(kArm).spool.extend.opening_exponent,
               profile.machine.valve.opening_exponent, 0.0);
@@ -212,20 +212,4 @@ void the_plants_exponent_goes_before_the_designs(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(step_response_is_the_critically_damped_one),
-      cmocka_unit_test(travel_is_limited),
-      cmocka_unit_test(deadband_is_shut),
-      cmocka_unit_test(opening_follows_the_travel_outside_it),
-      cmocka_unit_test(bypass_closes_continuously),
-      cmocka_unit_test(each_side_has_its_own_deadband),
-      cmocka_unit_test(a_soft_edge_opens_by_a_parabola),
-      cmocka_unit_test(a_bypass_is_open_at_neutral),
-      cmocka_unit_test(each_side_has_its_own_dead_time),
-      cmocka_unit_test(pilot_pressure_lags),
-      cmocka_unit_test(area_factors_are_the_plants),
-      cmocka_unit_test(the_plants_exponent_goes_before_the_designs),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

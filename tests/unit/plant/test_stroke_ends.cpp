@@ -17,7 +17,7 @@ using namespace graben::plant;
 using AxisArray = ExcavatorPlant::AxisArray;
 
 // By hand: 200 L/min through a hose of 3e7 Pa s/m^3 and 2.7e10 Pa s^2/m^6.
-void hose_drops_0_4_mpa_at_200_l_per_min(void**) {
+TEST(hose_drops_0_4_mpa_at_200_l_per_min) {
   const ValveSection section(machine_22t().section(kArm));
   const double flow = 0.2 / 60.0;
   assert_near(section.hose_drop_pa(flow, 0.0), 0.1e6 + 0.3e6, 1.0);
@@ -29,7 +29,7 @@ void hose_drops_0_4_mpa_at_200_l_per_min(void**) {
 
 // Steady extension: pump line to bore through edge and hose, rod side to tank through hose and
 // edge.
-void hose_is_in_series_with_the_edge(void**) {
+TEST(hose_is_in_series_with_the_edge) {
   ExcavatorPlantProfile profile = hopsan_circuit(200);
   profile.hose_linear_paspm3 = 3e8;
   profile.hose_quadratic_pas2pm6 = 2e11;
@@ -50,7 +50,7 @@ void hose_is_in_series_with_the_edge(void**) {
               circuit.cylinder.cap().volume_m3() * (1.0 + circuit.cap_pa() / 1.2e9), 1e-12);
 }
 
-void cushion_grows_towards_the_end_only(void**) {
+TEST(cushion_grows_towards_the_end_only) {
   const ExcavatorPlantProfile profile = machine_22t();
   Cylinder cylinder(profile.cylinder(kArm), profile.step_s());
   const double cap_area = 0.785398163397448 * 0.140 * 0.140;
@@ -73,7 +73,7 @@ void cushion_grows_towards_the_end_only(void**) {
 
 // Both ways out of a chamber pass its cushion: by its return edge, and by its in-flow edge where
 // the chamber is above the pump line. The way in does not.
-void cushion_throttles_every_way_out(void**) {
+TEST(cushion_throttles_every_way_out) {
   const double k = 0.62 * std::sqrt(2.0 / 870.0);
   ValveSection section(hopsan_circuit(200).section(kArm));
   section.set_command(1.0);
@@ -127,7 +127,7 @@ Impact run_into_end(const ExcavatorPlantProfile& profile, std::size_t axis, doub
   return impact;
 }
 
-void cushions_end_the_blow(void**) {
+TEST(cushions_end_the_blow) {
   ExcavatorPlantProfile profile = machine_22t();
   profile.swash_ratio = {1.0, 1.0};
   ExcavatorPlantProfile bare = profile;
@@ -153,13 +153,4 @@ void cushions_end_the_blow(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(hose_drops_0_4_mpa_at_200_l_per_min),
-      cmocka_unit_test(hose_is_in_series_with_the_edge),
-      cmocka_unit_test(cushion_grows_towards_the_end_only),
-      cmocka_unit_test(cushion_throttles_every_way_out),
-      cmocka_unit_test(cushions_end_the_blow),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -66,7 +66,7 @@ double inertia_by_hand(const JointArray& q) {
   return inertia;
 }
 
-void inertia_is_that_of_the_parts(void**) {
+TEST(inertia_is_that_of_the_parts) {
   for (const AxisArray& strokes : {kStart, AxisArray{0.1, 1.0, 0.1}, AxisArray{0.9, 0.1, 0.8}}) {
     ExcavatorPlant plant(machine_12t(), strokes);
     const double by_hand = inertia_by_hand(plant.joint_angles_rad());
@@ -81,7 +81,7 @@ void inertia_is_that_of_the_parts(void**) {
 
 // A mass that goes round at w pulls outwards with m r w^2, at its height over the boom foot; a thin
 // rod that does not stand upright is pulled level.
-void turning_pulls_the_links_outwards(void**) {
+TEST(turning_pulls_the_links_outwards) {
   constexpr double kRate = 1.4;
   LinkageDynamics links(machine_12t());
   const JointArray q{0.6, -1.3, -0.7};
@@ -105,7 +105,7 @@ void turning_pulls_the_links_outwards(void**) {
   }
 }
 
-void teeth_are_where_the_swing_looks(void**) {
+TEST(teeth_are_where_the_swing_looks) {
   const ExcavatorPlant plant(machine_12t(), kStart, 0.7);
   assert_near(plant.swing_rad(), 0.7, 0.0);
   const graben::plant::TipPose tip = plant.tip();
@@ -119,7 +119,7 @@ void teeth_are_where_the_swing_looks(void**) {
 
 // At an even rate the pump's flow, less what goes through the bypass, goes through the motor, but
 // for what leaks; the pressures carry the friction.
-void speed_is_flow_over_displacement(void**) {
+TEST(speed_is_flow_over_displacement) {
   for (const double duty : {0.6, -0.6, 0.9}) {
     ExcavatorPlant plant(machine_12t(), kStart);
     run(plant, swing_duty(duty), 12 * kSecondUs);
@@ -141,7 +141,7 @@ void speed_is_flow_over_displacement(void**) {
 
 // Left to itself on the oil that the spool shuts in: K = beta D^2 2 / V. Make-up fills what the
 // first swings leave open, then nothing but the filter of the elements takes energy.
-void shut_in_it_rings_at_its_own_frequency(void**) {
+TEST(shut_in_it_rings_at_its_own_frequency) {
   ExcavatorPlantProfile profile = machine_12t();
   profile.platform.coulomb_nm = 0.0;
   profile.platform.viscous_nmsprad = 0.0;
@@ -176,7 +176,7 @@ void shut_in_it_rings_at_its_own_frequency(void**) {
 
 // Full speed, then the spool shuts: the reliefs brake it evenly. What stands against it is the
 // relief's pressure and friction.
-void braking_is_what_the_reliefs_hold(void**) {
+TEST(braking_is_what_the_reliefs_hold) {
   for (const double side : {1.0, -1.0}) {
     ExcavatorPlant plant(machine_12t(), kStart);
     run(plant, swing_duty(side), 12 * kSecondUs);
@@ -207,7 +207,7 @@ void braking_is_what_the_reliefs_hold(void**) {
   }
 }
 
-void platform_keeps_its_momentum_and_sticks(void**) {
+TEST(platform_keeps_its_momentum_and_sticks) {
   Platform free({10000.0, 0.0, 0.0}, 0.0, 5000.0);
   for (int i = 0; i < 1000; ++i) {
     static_cast<void>(free.accelerate({30000.0, 0.0}, 5000.0, 2e-4));
@@ -233,7 +233,7 @@ void platform_keeps_its_momentum_and_sticks(void**) {
 }
 
 // Both ways, with the boom going up and down in between, into the reliefs, until it stands.
-void energy_is_accounted_for(void**) {
+TEST(energy_is_accounted_for) {
   for (const double coupled : {0.0, 1.0}) {
     ExcavatorPlantProfile profile = machine_12t();
     profile.swash_ratio = {1.0, 1.0};
@@ -267,7 +267,7 @@ void energy_is_accounted_for(void**) {
   }
 }
 
-void pilot_of_the_swing_is_as_the_others(void**) {
+TEST(pilot_of_the_swing_is_as_the_others) {
   ExcavatorPlantProfile profile = machine_12t();
   profile.dead_time = {0.0, 0.0, 0.0, 0.1};
   ExcavatorPlant plant(profile, kStart);
@@ -289,7 +289,7 @@ void pilot_of_the_swing_is_as_the_others(void**) {
 }
 
 // The bypass chain is that of four sections: one of them shut takes the flow from the tank.
-void swing_shuts_the_bypass_of_its_pump(void**) {
+TEST(swing_shuts_the_bypass_of_its_pump) {
   ExcavatorPlant plant(machine_12t(), kStart);
   const double standby = plant.pump_pressures_pa()[0];
   const double k = 1.0 / std::sqrt(5.0 / (5.8e-6 * 5.8e-6) + 1.0 / (5.1e-6 * 5.1e-6));
@@ -298,7 +298,7 @@ void swing_shuts_the_bypass_of_its_pump(void**) {
   assert_true(plant.pump_pressures_pa()[0] > 3.0 * standby);
 }
 
-void without_the_drive_the_swing_is_held(void**) {
+TEST(without_the_drive_the_swing_is_held) {
   ExcavatorPlant plain(machine_22t(), {0.7, 0.7, 0.6}, 0.4);
   ExcavatorPlant told(machine_22t(), {0.7, 0.7, 0.6}, 0.4);
   run(plain, {0.6, -0.5, 0.4, 0.0}, 2 * kSecondUs);
@@ -321,19 +321,4 @@ void without_the_drive_the_swing_is_held(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(inertia_is_that_of_the_parts),
-      cmocka_unit_test(turning_pulls_the_links_outwards),
-      cmocka_unit_test(teeth_are_where_the_swing_looks),
-      cmocka_unit_test(speed_is_flow_over_displacement),
-      cmocka_unit_test(shut_in_it_rings_at_its_own_frequency),
-      cmocka_unit_test(braking_is_what_the_reliefs_hold),
-      cmocka_unit_test(platform_keeps_its_momentum_and_sticks),
-      cmocka_unit_test(energy_is_accounted_for),
-      cmocka_unit_test(pilot_of_the_swing_is_as_the_others),
-      cmocka_unit_test(swing_shuts_the_bypass_of_its_pump),
-      cmocka_unit_test(without_the_drive_the_swing_is_held),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

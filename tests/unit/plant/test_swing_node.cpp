@@ -14,7 +14,7 @@ using namespace graben::plant;
 using namespace graben::plant::test;
 using dbc::RawState;
 
-void frames_come_at_their_rates(void**) {
+TEST(frames_come_at_their_rates) {
   SwingRig rig;
   rig.cycles(200);
   assert_int_equal(rig.seen[bus::SwingState::kId].size(), 200);
@@ -28,7 +28,7 @@ void frames_come_at_their_rates(void**) {
                    rig.seen[bus::ValveState::kId].back().stamp_us);
 }
 
-void without_the_drive_nothing_is_said_or_heard(void**) {
+TEST(without_the_drive_nothing_is_said_or_heard) {
   Rig rig;
   for (int i = 0; i < 50; ++i) {
     bus::SwingCommand message;
@@ -43,7 +43,7 @@ void without_the_drive_nothing_is_said_or_heard(void**) {
   assert_false(rig.machine.swing_enabled());
 }
 
-void values_are_the_plants(void**) {
+TEST(values_are_the_plants) {
   SwingRig rig;
   rig.command_for(151, true, true, -0.6);
   rig.cycle();
@@ -61,7 +61,7 @@ void values_are_the_plants(void**) {
   assert_near(plant.swing_spool_ratio(), -0.6, 1e-3);
 }
 
-void spool_opens_only_with_both_commands(void**) {
+TEST(spool_opens_only_with_both_commands) {
   SwingRig rig;
   rig.command_for(30, true, true, 0.5);
   assert_true(rig.machine.spools_enabled() && rig.machine.swing_enabled());
@@ -80,7 +80,7 @@ void spool_opens_only_with_both_commands(void**) {
   assert_near(rig.spool(), -0.5, 1e-3);
 }
 
-void swing_alone_opens_nothing(void**) {
+TEST(swing_alone_opens_nothing) {
   SwingRig rig;
   for (int i = 0; i < 30; ++i) {
     rig.send_swing(true, 0.5);
@@ -90,7 +90,7 @@ void swing_alone_opens_nothing(void**) {
   assert_near(rig.spool(), 0.0, 0.0);
 }
 
-void silence_of_the_swings_command_is_neutral(void**) {
+TEST(silence_of_the_swings_command_is_neutral) {
   SwingRig rig;
   rig.command_for(30, true, true, 0.5);
   for (int i = 0; i < 9; ++i) {
@@ -113,7 +113,7 @@ void silence_of_the_swings_command_is_neutral(void**) {
   assert_near(rig.spool(), 0.5, 1e-3);
 }
 
-void silence_of_the_other_command_is_neutral_too(void**) {
+TEST(silence_of_the_other_command_is_neutral_too) {
   SwingRig rig;
   rig.command_for(30, true, true, 0.5);
   for (int i = 0; i < 40; ++i) {
@@ -124,7 +124,7 @@ void silence_of_the_other_command_is_neutral_too(void**) {
   assert_near(rig.spool(), 0.0, 1e-4);
 }
 
-void what_is_no_duty_is_neutral(void**) {
+TEST(what_is_no_duty_is_neutral) {
   for (const RawState state : {RawState::kError, RawState::kNotAvailable}) {
     for (const bool of_enable : {false, true}) {
       SwingRig rig;
@@ -141,7 +141,7 @@ void what_is_no_duty_is_neutral(void**) {
   }
 }
 
-void a_spoilt_command_does_not_count(void**) {
+TEST(a_spoilt_command_does_not_count) {
   SwingRig rig;
   rig.command_for(30, true, true, 0.0);
   CanFrame frame = rig.frame_of(rig.swing(true, 0.5));
@@ -152,7 +152,7 @@ void a_spoilt_command_does_not_count(void**) {
   assert_near(rig.spool(), 0.0, 0.0);
 }
 
-void sensors_of_the_swing_fail_as_told(void**) {
+TEST(sensors_of_the_swing_fail_as_told) {
   SwingRig rig;
   rig.cycles(5);
   SwingFaults& faults = rig.machine.faults().swing;
@@ -182,7 +182,7 @@ void sensors_of_the_swing_fail_as_told(void**) {
   assert_int_equal(rig.seen[bus::SwingState::kId].size(), before);
 }
 
-void spool_of_the_swing_fails_as_told(void**) {
+TEST(spool_of_the_swing_fails_as_told) {
   SwingRig rig;
   rig.machine.faults().swing.spool_offset_ratio = 0.1;
   rig.cycles(50);
@@ -198,7 +198,7 @@ void spool_of_the_swing_fails_as_told(void**) {
   assert_near(rig.spool(), 0.0, 1e-4);
 }
 
-void angle_sensor_counts_no_turns(void**) {
+TEST(angle_sensor_counts_no_turns) {
   SensorErrors errors;
   errors.swing_resolution_rad = 1e-3;
   const SensorModel exact(errors, std::nullopt);
@@ -216,7 +216,7 @@ void angle_sensor_counts_no_turns(void**) {
   assert_true(most > 0.009);
 }
 
-void operator_says_the_task_number(void**) {
+TEST(operator_says_the_task_number) {
   SwingRig rig;
   rig.cycle();
   assert_int_equal(last<bus::OperatorCommand>(rig).task_number.value, 0);
@@ -233,21 +233,4 @@ void operator_says_the_task_number(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(frames_come_at_their_rates),
-      cmocka_unit_test(without_the_drive_nothing_is_said_or_heard),
-      cmocka_unit_test(values_are_the_plants),
-      cmocka_unit_test(spool_opens_only_with_both_commands),
-      cmocka_unit_test(swing_alone_opens_nothing),
-      cmocka_unit_test(silence_of_the_swings_command_is_neutral),
-      cmocka_unit_test(silence_of_the_other_command_is_neutral_too),
-      cmocka_unit_test(what_is_no_duty_is_neutral),
-      cmocka_unit_test(a_spoilt_command_does_not_count),
-      cmocka_unit_test(sensors_of_the_swing_fail_as_told),
-      cmocka_unit_test(spool_of_the_swing_fails_as_told),
-      cmocka_unit_test(angle_sensor_counts_no_turns),
-      cmocka_unit_test(operator_says_the_task_number),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

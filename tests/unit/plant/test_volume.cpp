@@ -13,7 +13,7 @@ constexpr double kVolume = 2e-3;
 constexpr double kStep = 1e-4;
 constexpr Oil kOil{kBulkModulus, 0.0};
 
-void steady_inflow_raises_the_pressure(void**) {
+TEST(steady_inflow_raises_the_pressure) {
   WaveVolume volume(3, kOil, kStep);
   volume.start(kVolume, 5e6);
   for (int i = 0; i < 1000; ++i) {
@@ -25,7 +25,7 @@ void steady_inflow_raises_the_pressure(void**) {
   assert_near(volume.pressure_pa(), 5e6 + kBulkModulus / kVolume * 3e-4 * 0.1, 0.2e5);
 }
 
-void start_is_steady(void**) {
+TEST(start_is_steady) {
   WaveVolume volume(2, kOil, kStep);
   volume.set_flow(0, 1e-3);
   volume.set_flow(1, -1e-3);
@@ -38,7 +38,7 @@ void start_is_steady(void**) {
 
 // sqrt(p) = sqrt(p0) - beta K / (2 V) t; 20 MPa through 5 mm^2, as in the Hopsan reference run,
 // which is empty at 0.1003 s.
-void discharge_through_an_orifice(void**) {
+TEST(discharge_through_an_orifice) {
   const double k = orifice_coefficient(5e-6, 0.62, 870.0);
   WaveVolume volume(1, kOil, kStep);
   volume.start(kVolume, 20e6);
@@ -52,7 +52,7 @@ void discharge_through_an_orifice(void**) {
 }
 
 // Thousands of the orifice's time constants in a step: the ports stay within the start's pressure.
-void far_too_long_a_step_stays_stable(void**) {
+TEST(far_too_long_a_step_stays_stable) {
   WaveVolume volume(2, {1e10, 0.0}, 0.1);
   volume.start(1e-4, 30e6);
   double pressure = 30e6;
@@ -68,7 +68,7 @@ void far_too_long_a_step_stays_stable(void**) {
   assert_near(pressure, 0.0, 1.0);
 }
 
-void closed_ports_agree_after_a_while(void**) {
+TEST(closed_ports_agree_after_a_while) {
   WaveVolume volume(2, kOil, kStep);
   volume.start(kVolume, 5e6);
   volume.set_flow(0, 1e-3);
@@ -82,7 +82,7 @@ void closed_ports_agree_after_a_while(void**) {
 
 // A wall gives way by 1 % of the volume: density is linear in pressure, so that
 // V (1 + p / beta) stays.
-void oil_survives_a_change_of_volume(void**) {
+TEST(oil_survives_a_change_of_volume) {
   WaveVolume volume(2, kOil, kStep);
   volume.start(kVolume, 30e6);
   const double content = volume.content_m3();
@@ -98,7 +98,7 @@ void oil_survives_a_change_of_volume(void**) {
 
 // Below its boiling pressure a volume pulls no harder, and gives back pressure only when it is
 // full.
-void void_is_refilled_before_pressure_returns(void**) {
+TEST(void_is_refilled_before_pressure_returns) {
   const Oil oil{kBulkModulus, -0.1e6};
   WaveVolume volume(2, oil, kStep);
   volume.start(kVolume, 0.0);
@@ -121,15 +121,4 @@ void void_is_refilled_before_pressure_returns(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(steady_inflow_raises_the_pressure),
-      cmocka_unit_test(start_is_steady),
-      cmocka_unit_test(discharge_through_an_orifice),
-      cmocka_unit_test(far_too_long_a_step_stays_stable),
-      cmocka_unit_test(closed_ports_agree_after_a_while),
-      cmocka_unit_test(oil_survives_a_change_of_volume),
-      cmocka_unit_test(void_is_refilled_before_pressure_returns),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

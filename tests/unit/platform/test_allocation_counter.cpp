@@ -40,7 +40,7 @@ int only_where_counted(void**) {
   return 0;
 }
 
-void the_c_librarys_calls(void**) {
+TEST(the_c_librarys_calls) {
   if (only_where_counted(nullptr) != 0) {
     skip();
   }
@@ -51,7 +51,7 @@ void the_c_librarys_calls(void**) {
   assert_int_equal(counted([] { return ::strdup("on the heap"); }), 1);
 }
 
-void aligned_memory(void**) {
+TEST(aligned_memory) {
   if (only_where_counted(nullptr) != 0) {
     skip();
   }
@@ -72,7 +72,7 @@ void aligned_memory(void**) {
   assert_int_equal(posix_memalign(&memory, odd, 64), EINVAL);
 }
 
-void operator_new(void**) {
+TEST(operator_new) {
   if (only_where_counted(nullptr) != 0) {
     skip();
   }
@@ -92,7 +92,7 @@ void operator_new(void**) {
   delete wide;
 }
 
-void nothing_is_counted_for_nothing(void**) {
+TEST(nothing_is_counted_for_nothing) {
   const std::uint64_t before = allocation_count();
   char text[64];
   std::snprintf(text, sizeof text, "%d", 5);
@@ -101,12 +101,4 @@ void nothing_is_counted_for_nothing(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_c_librarys_calls),
-      cmocka_unit_test(aligned_memory),
-      cmocka_unit_test(operator_new),
-      cmocka_unit_test(nothing_is_counted_for_nothing),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

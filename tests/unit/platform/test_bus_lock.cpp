@@ -18,7 +18,7 @@ using namespace graben;
 /// Tests run beside each other, in one network namespace.
 std::string own_name(const char* name) { return name + std::to_string(getpid()); }
 
-void the_second_is_refused_in_words(void**) {
+TEST(the_second_is_refused_in_words) {
   std::optional<BusLock> first(own_name("a"));
   assert_true(first->error().empty());
   const BusLock second(own_name("a"));
@@ -30,15 +30,11 @@ void the_second_is_refused_in_words(void**) {
   assert_true(after.error().empty());
 }
 
-void a_name_that_is_too_long_is_told(void**) {
+TEST(a_name_that_is_too_long_is_told) {
   const BusLock lock(std::string(200, 'x'));
   assert_non_null(std::strstr(lock.error().c_str(), "too long"));
 }
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(the_second_is_refused_in_words),
-                              cmocka_unit_test(a_name_that_is_too_long_is_told)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

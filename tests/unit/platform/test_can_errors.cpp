@@ -22,7 +22,7 @@ can_frame controller_report(unsigned status) { return error_frame(CAN_ERR_CRTL, 
 
 constexpr State kOpenStates[] = {State::kActive, State::kErrorPassive, State::kBusOff};
 
-void bus_off_and_restart(void**) {
+TEST(bus_off_and_restart) {
   for (const State from : kOpenStates) {
     assert_int_equal(next_state(from, error_frame(CAN_ERR_BUSOFF)), State::kBusOff);
     assert_int_equal(next_state(from, error_frame(CAN_ERR_RESTARTED)), State::kActive);
@@ -30,7 +30,7 @@ void bus_off_and_restart(void**) {
   }
 }
 
-void passive_in_either_direction(void**) {
+TEST(passive_in_either_direction) {
   for (const unsigned status : {CAN_ERR_CRTL_RX_PASSIVE, CAN_ERR_CRTL_TX_PASSIVE,
                                 CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_WARNING,
                                 CAN_ERR_CRTL_TX_PASSIVE | CAN_ERR_CRTL_ACTIVE}) {
@@ -40,21 +40,21 @@ void passive_in_either_direction(void**) {
   }
 }
 
-void a_warning_is_error_active(void**) {
+TEST(a_warning_is_error_active) {
   for (const unsigned status : {CAN_ERR_CRTL_RX_WARNING, CAN_ERR_CRTL_TX_WARNING}) {
     assert_int_equal(next_state(State::kActive, controller_report(status)), State::kActive);
     assert_int_equal(next_state(State::kErrorPassive, controller_report(status)), State::kActive);
   }
 }
 
-void bus_off_is_not_left_by_less(void**) {
+TEST(bus_off_is_not_left_by_less) {
   for (const unsigned status : {CAN_ERR_CRTL_RX_WARNING, CAN_ERR_CRTL_TX_WARNING,
                                 CAN_ERR_CRTL_RX_PASSIVE, CAN_ERR_CRTL_TX_PASSIVE}) {
     assert_int_equal(next_state(State::kBusOff, controller_report(status)), State::kBusOff);
   }
 }
 
-void the_worse_of_two_reports_holds(void**) {
+TEST(the_worse_of_two_reports_holds) {
   const auto after = [](State from, canid_t classes, unsigned status) {
     return next_state(from, error_frame(classes, status));
   };
@@ -68,7 +68,7 @@ void the_worse_of_two_reports_holds(void**) {
       State::kErrorPassive);
 }
 
-void single_faults_change_nothing(void**) {
+TEST(single_faults_change_nothing) {
   for (const State from : kOpenStates) {
     for (const canid_t classes : {CAN_ERR_ACK, CAN_ERR_TX_TIMEOUT, CAN_ERR_PROT, CAN_ERR_BUSERROR,
                                   CAN_ERR_TRX, CAN_ERR_LOSTARB}) {
@@ -81,7 +81,7 @@ void single_faults_change_nothing(void**) {
   }
 }
 
-void a_data_frame_of_the_same_bits_changes_nothing(void**) {
+TEST(a_data_frame_of_the_same_bits_changes_nothing) {
   for (const State from : kOpenStates) {
     for (const canid_t id : {CAN_ERR_BUSOFF, CAN_ERR_CRTL, CAN_ERR_RESTARTED}) {
       can_frame frame = error_frame(id, CAN_ERR_CRTL_TX_PASSIVE);
@@ -92,7 +92,7 @@ void a_data_frame_of_the_same_bits_changes_nothing(void**) {
   }
 }
 
-void closed_and_down_are_left_by_opening_only(void**) {
+TEST(closed_and_down_are_left_by_opening_only) {
   for (const State from : {State::kClosed, State::kDown}) {
     assert_int_equal(next_state(from, error_frame(CAN_ERR_BUSOFF)), from);
     assert_int_equal(next_state(from, error_frame(CAN_ERR_RESTARTED)), from);
@@ -100,7 +100,7 @@ void closed_and_down_are_left_by_opening_only(void**) {
   }
 }
 
-void lost_frames_are_told_from_other_reports(void**) {
+TEST(lost_frames_are_told_from_other_reports) {
   assert_true(reports_lost_frames(controller_report(CAN_ERR_CRTL_RX_OVERFLOW)));
   assert_true(
       reports_lost_frames(controller_report(CAN_ERR_CRTL_RX_OVERFLOW | CAN_ERR_CRTL_RX_WARNING)));
@@ -108,7 +108,7 @@ void lost_frames_are_told_from_other_reports(void**) {
   assert_false(reports_lost_frames(error_frame(CAN_ERR_PROT, CAN_ERR_CRTL_RX_OVERFLOW)));
 }
 
-void the_classes_asked_for_are_those_understood(void**) {
+TEST(the_classes_asked_for_are_those_understood) {
   for (const canid_t wanted : {CAN_ERR_BUSOFF, CAN_ERR_RESTARTED, CAN_ERR_CRTL, CAN_ERR_ACK,
                                CAN_ERR_TX_TIMEOUT, CAN_ERR_PROT}) {
     assert_true((kCanErrorClasses & wanted) != 0);
@@ -118,18 +118,4 @@ void the_classes_asked_for_are_those_understood(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(bus_off_and_restart),
-      cmocka_unit_test(passive_in_either_direction),
-      cmocka_unit_test(a_warning_is_error_active),
-      cmocka_unit_test(bus_off_is_not_left_by_less),
-      cmocka_unit_test(the_worse_of_two_reports_holds),
-      cmocka_unit_test(single_faults_change_nothing),
-      cmocka_unit_test(a_data_frame_of_the_same_bits_changes_nothing),
-      cmocka_unit_test(closed_and_down_are_left_by_opening_only),
-      cmocka_unit_test(lost_frames_are_told_from_other_reports),
-      cmocka_unit_test(the_classes_asked_for_are_those_understood),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -32,7 +32,7 @@ void round_trip(const CanFrame& frame) {
   assert_true(back.data == frame.data);
 }
 
-void a_29_bit_frame_comes_in(void**) {
+TEST(a_29_bit_frame_comes_in) {
   const CanFrame frame = from_socketcan(kernel_frame(0x18FF5027U | CAN_EFF_FLAG, 8), 1234);
   assert_int_equal(frame.id, 0x18FF5027);
   assert_true(frame.extended);
@@ -43,7 +43,7 @@ void a_29_bit_frame_comes_in(void**) {
   assert_int_equal(frame.stamp_us, 1234);
 }
 
-void bytes_beyond_the_length_are_zero(void**) {
+TEST(bytes_beyond_the_length_are_zero) {
   const CanFrame three = from_socketcan(kernel_frame(1U | CAN_EFF_FLAG, 3), 0);
   assert_int_equal(three.length, 3);
   assert_int_equal(three.data[2], 0xA2);
@@ -56,7 +56,7 @@ void bytes_beyond_the_length_are_zero(void**) {
   assert_int_equal(remote.data[0], 0);
 }
 
-void flags_are_no_part_of_the_id(void**) {
+TEST(flags_are_no_part_of_the_id) {
   const CanFrame standard = from_socketcan(kernel_frame(0x7FF, 8), 0);
   assert_int_equal(standard.id, 0x7FF);
   assert_false(standard.extended);
@@ -68,7 +68,7 @@ void flags_are_no_part_of_the_id(void**) {
   assert_int_equal(error.id, 0x2000);
 }
 
-void frames_go_out_as_they_are(void**) {
+TEST(frames_go_out_as_they_are) {
   CanFrame frame;
   frame.length = 8;
   frame.data = {1, 2, 3, 4, 5, 6, 7, 8};
@@ -91,7 +91,7 @@ void frames_go_out_as_they_are(void**) {
   assert_int_equal(raw.can_id, 0x400007FFU);
 }
 
-void what_cannot_be_sent_is_refused(void**) {
+TEST(what_cannot_be_sent_is_refused) {
   can_frame raw = kernel_frame(0x55, 4);
   const can_frame before = raw;
   CanFrame good;
@@ -118,7 +118,7 @@ bool passes(const can_filter& filter, canid_t id) {
   return (id & filter.can_mask) == (filter.can_id & filter.can_mask);
 }
 
-void a_filter_passes_its_id_in_its_form_only(void**) {
+TEST(a_filter_passes_its_id_in_its_form_only) {
   for (const std::uint32_t id : {0x18FF5027U, 0U, 0x1FFFFFFFU, 0x7FFU}) {
     const can_filter filter = exact_filter(id);
     assert_true(passes(filter, id | CAN_EFF_FLAG));
@@ -135,7 +135,7 @@ void a_filter_passes_its_id_in_its_form_only(void**) {
 
 constexpr TimeUs kWallUs = 1'700'000'000'000'000;
 
-void a_stamp_keeps_its_age(void**) {
+TEST(a_stamp_keeps_its_age) {
   ReceiveStamp stamp;
   stamp.set_now(5'000'000, kWallUs);
   assert_int_equal(stamp.now_us(), 5'000'000);
@@ -145,7 +145,7 @@ void a_stamp_keeps_its_age(void**) {
   assert_int_equal(stamp.monotonic_us(kWallUs - kSecondUs), 4'000'000);
 }
 
-void an_impossible_age_becomes_now(void**) {
+TEST(an_impossible_age_becomes_now) {
   ReceiveStamp stamp;
   stamp.set_now(5'000'000, kWallUs);
   assert_int_equal(stamp.monotonic_us(kWallUs + 1), 5'000'000);
@@ -153,7 +153,7 @@ void an_impossible_age_becomes_now(void**) {
   assert_int_equal(stamp.monotonic_us(0), 5'000'000);
 }
 
-void no_stamp_is_believed_after_a_step_until_the_queue_was_empty(void**) {
+TEST(no_stamp_is_believed_after_a_step_until_the_queue_was_empty) {
   for (const TimeUs step_us : {TimeUs{1'001}, TimeUs{-1'001}, TimeUs{500'000}}) {
     ReceiveStamp stamp;
     stamp.set_now(5'000'000, kWallUs);
@@ -166,7 +166,7 @@ void no_stamp_is_believed_after_a_step_until_the_queue_was_empty(void**) {
   }
 }
 
-void slewing_is_no_step(void**) {
+TEST(slewing_is_no_step) {
   for (const TimeUs slew_us : {TimeUs{1'000}, TimeUs{-1'000}}) {
     ReceiveStamp stamp;
     stamp.set_now(5'000'000, kWallUs);
@@ -177,18 +177,4 @@ void slewing_is_no_step(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_29_bit_frame_comes_in),
-      cmocka_unit_test(bytes_beyond_the_length_are_zero),
-      cmocka_unit_test(flags_are_no_part_of_the_id),
-      cmocka_unit_test(frames_go_out_as_they_are),
-      cmocka_unit_test(what_cannot_be_sent_is_refused),
-      cmocka_unit_test(a_filter_passes_its_id_in_its_form_only),
-      cmocka_unit_test(a_stamp_keeps_its_age),
-      cmocka_unit_test(an_impossible_age_becomes_now),
-      cmocka_unit_test(no_stamp_is_believed_after_a_step_until_the_queue_was_empty),
-      cmocka_unit_test(slewing_is_no_step),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -84,7 +84,7 @@ CanLink parsed(const Buffer& bytes) {
   return link;
 }
 
-void a_controller_has_a_state(void**) {
+TEST(a_controller_has_a_state) {
   const CanLink link = parsed(message(ARPHRD_CAN, IFF_UP, can_attributes(CAN_STATE_BUS_OFF)));
   assert_true(link.is_can);
   assert_true(link.is_up);
@@ -92,7 +92,7 @@ void a_controller_has_a_state(void**) {
   assert_int_equal(link.state, CAN_STATE_BUS_OFF);
 }
 
-void flags_and_type_are_told(void**) {
+TEST(flags_and_type_are_told) {
   const CanLink down =
       parsed(message(ARPHRD_CAN, IFF_RUNNING, can_attributes(CAN_STATE_ERROR_ACTIVE)));
   assert_false(down.is_up);
@@ -100,7 +100,7 @@ void flags_and_type_are_told(void**) {
   assert_false(parsed(message(ARPHRD_ETHER, IFF_UP, {})).is_can);
 }
 
-void a_virtual_interface_has_none(void**) {
+TEST(a_virtual_interface_has_none) {
   // Of another kind the same number may be anything.
   for (const char* const kind : {"vcan", "vxcan", "canx", "cab", "ca", ""}) {
     assert_false(parsed(message(ARPHRD_CAN, IFF_UP, can_attributes(3, kind))).has_state);
@@ -109,7 +109,7 @@ void a_virtual_interface_has_none(void**) {
   assert_false(parsed(message(ARPHRD_CAN, IFF_UP, attribute(IFLA_LINKINFO, {}))).has_state);
 }
 
-void anything_else_is_refused(void**) {
+TEST(anything_else_is_refused) {
   const Buffer good = message(ARPHRD_CAN, IFF_UP, can_attributes(0));
   CanLink link;
   assert_true(parse_link(good.data(), good.size(), link));
@@ -124,7 +124,7 @@ void anything_else_is_refused(void**) {
 }
 
 /// Whatever lengths the attributes claim, reading ends and stays inside; the sanitizers look on.
-void broken_lengths_are_survived(void**) {
+TEST(broken_lengths_are_survived) {
   const Buffer good = message(ARPHRD_CAN, IFF_UP, can_attributes(CAN_STATE_BUS_OFF));
   for (std::size_t at = sizeof(nlmsghdr) + sizeof(ifinfomsg); at < good.size(); ++at) {
     for (const int value : {0, 1, 3, 4, 5, 7, 8, 127, 255}) {
@@ -137,7 +137,7 @@ void broken_lengths_are_survived(void**) {
   }
 }
 
-void states_of_a_port(void**) {
+TEST(states_of_a_port) {
   const auto state = [](std::uint32_t controller) {
     return state_of({true, true, true, controller});
   };
@@ -153,7 +153,7 @@ void states_of_a_port(void**) {
   assert_int_equal(state_of({true, false, true, CAN_STATE_ERROR_ACTIVE}), CanPortState::kDown);
 }
 
-void the_kernel_answers(void**) {
+TEST(the_kernel_answers) {
   CanLink link;
   ErrorText error;
   const int index = static_cast<int>(if_nametoindex("lo"));
@@ -166,7 +166,7 @@ void the_kernel_answers(void**) {
   assert_int_equal(state_of(link), CanPortState::kDown);
 }
 
-void an_interface_that_is_not_there(void**) {
+TEST(an_interface_that_is_not_there) {
   CanLink link;
   ErrorText error;
   assert_false(query_link(0x7FFFFFF0, link, error));
@@ -175,16 +175,4 @@ void an_interface_that_is_not_there(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_controller_has_a_state),
-      cmocka_unit_test(flags_and_type_are_told),
-      cmocka_unit_test(a_virtual_interface_has_none),
-      cmocka_unit_test(anything_else_is_refused),
-      cmocka_unit_test(broken_lengths_are_survived),
-      cmocka_unit_test(states_of_a_port),
-      cmocka_unit_test(the_kernel_answers),
-      cmocka_unit_test(an_interface_that_is_not_there),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -34,7 +34,7 @@ struct TwoBuses {
   }
 };
 
-void without_ports_it_is_closed(void**) {
+TEST(without_ports_it_is_closed) {
   CanPortGroup none;
   CanFrame taken;
   assert_false(none.open());
@@ -43,7 +43,7 @@ void without_ports_it_is_closed(void**) {
   assert_int_equal(none.receive(&taken, 1), 0);
 }
 
-void there_is_room_for_four(void**) {
+TEST(there_is_room_for_four) {
   LoopbackBus bus;
   CanPortGroup group;
   for (std::size_t i = 0; i < CanPortGroup::kMost; ++i) {
@@ -52,7 +52,7 @@ void there_is_room_for_four(void**) {
   assert_false(group.add(bus.attach()));
 }
 
-void what_is_sent_goes_to_all(void**) {
+TEST(what_is_sent_goes_to_all) {
   TwoBuses two;
   assert_true(two.group.open());
   assert_true(two.group.send(frame(0x123)));
@@ -64,7 +64,7 @@ void what_is_sent_goes_to_all(void**) {
 }
 
 /// One bus that does not take it is enough to call it dropped; the others have it all the same.
-void a_frame_that_one_bus_refuses_is_dropped(void**) {
+TEST(a_frame_that_one_bus_refuses_is_dropped) {
   for (std::size_t broken = 0; broken < 2; ++broken) {
     TwoBuses two;
     assert_true(two.group.open());
@@ -75,7 +75,7 @@ void a_frame_that_one_bus_refuses_is_dropped(void**) {
   }
 }
 
-void all_are_heard_and_a_flood_starves_nobody(void**) {
+TEST(all_are_heard_and_a_flood_starves_nobody) {
   TwoBuses two;
   assert_true(two.group.open());
   for (int n = 0; n < 10; ++n) {
@@ -94,7 +94,7 @@ void all_are_heard_and_a_flood_starves_nobody(void**) {
   assert_true(heard_second);
 }
 
-void the_worst_bus_is_the_state(void**) {
+TEST(the_worst_bus_is_the_state) {
   const CanPortState order[] = {CanPortState::kActive, CanPortState::kErrorPassive,
                                 CanPortState::kBusOff, CanPortState::kDown, CanPortState::kClosed};
   for (std::size_t one = 0; one < 5; ++one) {
@@ -108,7 +108,7 @@ void the_worst_bus_is_the_state(void**) {
 }
 
 /// A bus that is not there leaves the others open: what they say is still heard.
-void one_that_does_not_open_is_told(void**) {
+TEST(one_that_does_not_open_is_told) {
   TwoBuses two;
   two.own[0]->set_state(CanPortState::kDown);
   assert_false(two.group.open());
@@ -117,15 +117,4 @@ void one_that_does_not_open_is_told(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(without_ports_it_is_closed),
-      cmocka_unit_test(there_is_room_for_four),
-      cmocka_unit_test(what_is_sent_goes_to_all),
-      cmocka_unit_test(a_frame_that_one_bus_refuses_is_dropped),
-      cmocka_unit_test(all_are_heard_and_a_flood_starves_nobody),
-      cmocka_unit_test(the_worst_bus_is_the_state),
-      cmocka_unit_test(one_that_does_not_open_is_told),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

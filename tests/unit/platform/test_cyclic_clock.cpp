@@ -29,14 +29,14 @@ void expect_deadline(std::int64_t now_ns, std::int64_t at_ns, std::uint64_t skip
   }
 }
 
-void in_time_the_next_one_is_due(void**) {
+TEST(in_time_the_next_one_is_due) {
   expect_deadline(0, kPeriodNs, 0);
   expect_deadline(1, kPeriodNs, 0);
   expect_deadline(kPeriodNs - 1, kPeriodNs, 0);
   expect_deadline(kPeriodNs, kPeriodNs, 0);
 }
 
-void an_overrun_skips_whole_periods(void**) {
+TEST(an_overrun_skips_whole_periods) {
   expect_deadline(kPeriodNs + 1, 2 * kPeriodNs, 1);
   expect_deadline(2 * kPeriodNs - 1, 2 * kPeriodNs, 1);
   expect_deadline(2 * kPeriodNs, 2 * kPeriodNs, 1);
@@ -45,9 +45,9 @@ void an_overrun_skips_whole_periods(void**) {
   expect_deadline(360'000 * kPeriodNs + 7, 360'001 * kPeriodNs, 360'000);
 }
 
-void a_clock_that_is_early_waits_for_the_next(void**) { expect_deadline(-5, kPeriodNs, 0); }
+TEST(a_clock_that_is_early_waits_for_the_next) { expect_deadline(-5, kPeriodNs, 0); }
 
-void a_bin_a_microsecond_below_a_millisecond(void**) {
+TEST(a_bin_a_microsecond_below_a_millisecond) {
   Histogram histogram;
   for (const std::int64_t ns : {-3, 0, 1000, 1999, 999'999, 1'000'000, 20, 2'000'000'000}) {
     histogram.add(ns);
@@ -64,7 +64,7 @@ void a_bin_a_microsecond_below_a_millisecond(void**) {
   assert_int_equal(histogram.max_ns(), 2'000'000'000);
 }
 
-void minimum_mean_and_maximum(void**) {
+TEST(minimum_mean_and_maximum) {
   Histogram histogram;
   assert_int_equal(histogram.min_ns(), 0);
   assert_int_equal(histogram.max_ns(), 0);
@@ -98,7 +98,7 @@ std::string empty_rows(int begin, int end) {
   return rows;
 }
 
-void two_of_them_print_as_two_threads_of_cyclictest(void**) {
+TEST(two_of_them_print_as_two_threads_of_cyclictest) {
   Histogram latency;
   for (const std::int64_t ns : {7'000, 7'999, 12'500}) {
     latency.add(ns);
@@ -122,7 +122,7 @@ void two_of_them_print_as_two_threads_of_cyclictest(void**) {
                           .c_str());
 }
 
-void the_first_overflows_are_named_and_the_others_counted(void**) {
+TEST(the_first_overflows_are_named_and_the_others_counted) {
   Histogram histogram;
   for (std::size_t i = 0; i < Histogram::kNotedOverflows + 3; ++i) {
     histogram.add(5'000'000);
@@ -134,7 +134,7 @@ void the_first_overflows_are_named_and_the_others_counted(void**) {
 }
 
 /// A test may share its processor with anything: bounds below are sharp, those above are not there.
-void cycles_begin_on_the_grid(void**) {
+TEST(cycles_begin_on_the_grid) {
   constexpr TimeUs kPeriodUs = 2000;
   CyclicClock clock(kPeriodUs);
   const TimeUs before_us = monotonic_now_us();
@@ -158,7 +158,7 @@ void cycles_begin_on_the_grid(void**) {
   assert_int_equal(clock.cycle_time().count(), 20);
 }
 
-void a_cycle_that_overruns_is_told_and_not_made_up_for(void**) {
+TEST(a_cycle_that_overruns_is_told_and_not_made_up_for) {
   constexpr TimeUs kPeriodUs = 4000;
   CyclicClock clock(kPeriodUs);
   const CyclicClock::Cycle first = clock.wait();
@@ -176,7 +176,7 @@ void a_cycle_that_overruns_is_told_and_not_made_up_for(void**) {
 
 volatile std::sig_atomic_t g_signals = 0;
 
-void a_signal_does_not_end_the_sleep(void**) {
+TEST(a_signal_does_not_end_the_sleep) {
   struct sigaction action {};
   action.sa_handler = [](int) { g_signals = g_signals + 1; };
   sigaction(SIGALRM, &action, nullptr);
@@ -196,18 +196,4 @@ void a_signal_does_not_end_the_sleep(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(in_time_the_next_one_is_due),
-      cmocka_unit_test(an_overrun_skips_whole_periods),
-      cmocka_unit_test(a_clock_that_is_early_waits_for_the_next),
-      cmocka_unit_test(a_bin_a_microsecond_below_a_millisecond),
-      cmocka_unit_test(minimum_mean_and_maximum),
-      cmocka_unit_test(two_of_them_print_as_two_threads_of_cyclictest),
-      cmocka_unit_test(the_first_overflows_are_named_and_the_others_counted),
-      cmocka_unit_test(cycles_begin_on_the_grid),
-      cmocka_unit_test(a_cycle_that_overruns_is_told_and_not_made_up_for),
-      cmocka_unit_test(a_signal_does_not_end_the_sleep),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -38,7 +38,7 @@ LoopbackPort& opened(LoopbackBus& bus, std::size_t capacity = LoopbackBus::kQueu
 
 using Ids = std::vector<std::uint32_t>;
 
-void everyone_else_receives_in_order(void**) {
+TEST(everyone_else_receives_in_order) {
   LoopbackBus bus;
   LoopbackPort& a = opened(bus);
   LoopbackPort& b = opened(bus);
@@ -52,7 +52,7 @@ void everyone_else_receives_in_order(void**) {
   assert_true(drain(c).empty());
 }
 
-void receive_is_bounded(void**) {
+TEST(receive_is_bounded) {
   LoopbackBus bus;
   LoopbackPort& a = opened(bus);
   LoopbackPort& b = opened(bus);
@@ -67,7 +67,7 @@ void receive_is_bounded(void**) {
   assert_int_equal(b.receive(frames.data(), 0), 0);
 }
 
-void overflow_is_counted_and_keeps_the_oldest(void**) {
+TEST(overflow_is_counted_and_keeps_the_oldest) {
   LoopbackBus bus;
   LoopbackPort& a = opened(bus);
   LoopbackPort& small = opened(bus, 2);
@@ -81,7 +81,7 @@ void overflow_is_counted_and_keeps_the_oldest(void**) {
   assert_true(drain(large) == (Ids{0, 1, 2, 3, 4}));
 }
 
-void tap_sees_each_frame_with_its_time(void**) {
+TEST(tap_sees_each_frame_with_its_time) {
   LoopbackBus bus;
   LoopbackPort& a = opened(bus);
   LoopbackPort& b = opened(bus);
@@ -101,7 +101,7 @@ void tap_sees_each_frame_with_its_time(void**) {
   assert_int_equal(received.stamp_us, 10'000);
 }
 
-void hook_drops_and_alters(void**) {
+TEST(hook_drops_and_alters) {
   LoopbackBus bus;
   LoopbackPort& a = opened(bus);
   LoopbackPort& b = opened(bus);
@@ -126,7 +126,7 @@ void hook_drops_and_alters(void**) {
   assert_true(drain(a) == (Ids{3}));  // an injected frame is nobody's own
 }
 
-void a_port_off_the_bus_is_deaf_and_mute(void**) {
+TEST(a_port_off_the_bus_is_deaf_and_mute) {
   for (const CanPortState off :
        {CanPortState::kClosed, CanPortState::kBusOff, CanPortState::kDown}) {
     LoopbackBus bus;
@@ -151,7 +151,7 @@ void a_port_off_the_bus_is_deaf_and_mute(void**) {
   }
 }
 
-void a_new_port_is_closed_and_error_passive_works(void**) {
+TEST(a_new_port_is_closed_and_error_passive_works) {
   LoopbackBus bus;
   LoopbackPort& a = bus.attach();
   LoopbackPort& b = opened(bus);
@@ -165,7 +165,7 @@ void a_new_port_is_closed_and_error_passive_works(void**) {
   assert_true(drain(b) == (Ids{2}));
 }
 
-void a_full_transmit_queue_sends_nothing(void**) {
+TEST(a_full_transmit_queue_sends_nothing) {
   LoopbackBus bus;
   LoopbackPort& a = opened(bus);
   LoopbackPort& b = opened(bus);
@@ -179,7 +179,7 @@ void a_full_transmit_queue_sends_nothing(void**) {
   assert_true(drain(b) == (Ids{3}));
 }
 
-void babble_keeps_lower_priority_off(void**) {
+TEST(babble_keeps_lower_priority_off) {
   LoopbackBus bus;
   LoopbackPort& a = opened(bus);
   LoopbackPort& b = opened(bus);
@@ -200,17 +200,4 @@ void babble_keeps_lower_priority_off(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(everyone_else_receives_in_order),
-      cmocka_unit_test(receive_is_bounded),
-      cmocka_unit_test(overflow_is_counted_and_keeps_the_oldest),
-      cmocka_unit_test(tap_sees_each_frame_with_its_time),
-      cmocka_unit_test(hook_drops_and_alters),
-      cmocka_unit_test(a_port_off_the_bus_is_deaf_and_mute),
-      cmocka_unit_test(a_new_port_is_closed_and_error_passive_works),
-      cmocka_unit_test(a_full_transmit_queue_sends_nothing),
-      cmocka_unit_test(babble_keeps_lower_priority_off),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

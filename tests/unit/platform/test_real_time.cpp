@@ -76,7 +76,7 @@ long locked_kb() {
   return result;
 }
 
-void memory_is_locked(void**) {
+TEST(memory_is_locked) {
   if (kSanitized) {
     skip();  // the sanitizers make mlockall a no-operation: their shadow is terabytes
   }
@@ -97,7 +97,7 @@ void memory_is_locked(void**) {
   assert_int_equal(outcome, kGood);
 }
 
-void what_is_missing_is_named(void**) {
+TEST(what_is_missing_is_named) {
   assert_int_equal(
       in_child([] {
         if (!become_nobody()) {
@@ -113,7 +113,7 @@ void what_is_missing_is_named(void**) {
       kGood);
 }
 
-void a_priority_is_set_and_not_inherited(void**) {
+TEST(a_priority_is_set_and_not_inherited) {
   const int outcome = in_child([] {
     const ErrorText error = set_fifo_priority(10);
     if (!error.empty()) {
@@ -131,14 +131,14 @@ void a_priority_is_set_and_not_inherited(void**) {
   assert_int_equal(outcome, kGood);
 }
 
-void a_priority_out_of_range_is_refused(void**) {
+TEST(a_priority_out_of_range_is_refused) {
   for (const int priority : {-1, 0, 100}) {
     assert_true(contains(set_fifo_priority(priority), "a priority is 1 to 99"));
   }
   assert_int_equal(sched_getscheduler(0), SCHED_OTHER);
 }
 
-void a_thread_is_pinned(void**) {
+TEST(a_thread_is_pinned) {
   cpu_set_t allowed;
   assert_int_equal(sched_getaffinity(0, sizeof allowed, &allowed), 0);
   int last = -1;
@@ -155,7 +155,7 @@ void a_thread_is_pinned(void**) {
                    kGood);
 }
 
-void a_cpu_that_is_not_there_is_named(void**) {
+TEST(a_cpu_that_is_not_there_is_named) {
   assert_true(contains(pin_to_cpu(-1), "CPU -1: CPUs are numbered 0 to 1023"));
   assert_true(contains(pin_to_cpu(1024), "CPU 1024: CPUs are numbered 0 to 1023"));
   if (sysconf(_SC_NPROCESSORS_CONF) < 1023) {
@@ -163,7 +163,7 @@ void a_cpu_that_is_not_there_is_named(void**) {
   }
 }
 
-void page_faults_are_seen(void**) {
+TEST(page_faults_are_seen) {
   constexpr std::size_t kPages = 16;
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   auto* const memory = static_cast<volatile char*>(
@@ -192,7 +192,7 @@ __attribute__((noinline)) std::int64_t faults_of_deep_stack() {
   return faults_since(before, page_faults());
 }
 
-void a_touched_stack_does_not_fault(void**) {
+TEST(a_touched_stack_does_not_fault) {
   // A child begins with fresh copies of its parent's pages: without the call there are faults.
   static_cast<void>(page_faults());
   assert_int_equal(in_child([] { return faults_of_deep_stack() > 0 ? kGood : kWrong; }), kGood);
@@ -204,7 +204,7 @@ void a_touched_stack_does_not_fault(void**) {
                    kGood);
 }
 
-void the_heap_is_tuned(void**) {
+TEST(the_heap_is_tuned) {
   if (kSanitized) {
     skip();  // their heap takes no tuning, and says so
   }
@@ -227,7 +227,7 @@ void the_heap_is_tuned(void**) {
                    kGood);
 }
 
-void an_error_text_is_cut_not_overrun(void**) {
+TEST(an_error_text_is_cut_not_overrun) {
   ErrorText text;
   assert_true(text.empty());
   assert_string_equal(text.c_str(), "");
@@ -243,18 +243,4 @@ void an_error_text_is_cut_not_overrun(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(memory_is_locked),
-      cmocka_unit_test(what_is_missing_is_named),
-      cmocka_unit_test(a_priority_is_set_and_not_inherited),
-      cmocka_unit_test(a_priority_out_of_range_is_refused),
-      cmocka_unit_test(a_thread_is_pinned),
-      cmocka_unit_test(a_cpu_that_is_not_there_is_named),
-      cmocka_unit_test(page_faults_are_seen),
-      cmocka_unit_test(a_touched_stack_does_not_fault),
-      cmocka_unit_test(the_heap_is_tuned),
-      cmocka_unit_test(an_error_text_is_cut_not_overrun),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -71,7 +71,7 @@ int remove_folder(void**) { return rmdir(g_folder.c_str()); }
 
 std::string path() { return g_folder + "/notify"; }
 
-void every_message_arrives(void**) {
+TEST(every_message_arrives) {
   for (const std::string& name : {path(), "@graben-notify-test-" + std::to_string(getpid())}) {
     const Manager manager(name);
     ServiceNotify notify(name.c_str());
@@ -88,7 +88,7 @@ void every_message_arrives(void**) {
   }
 }
 
-void a_status_is_one_line_of_200_bytes(void**) {
+TEST(a_status_is_one_line_of_200_bytes) {
   const Manager manager(path());
   ServiceNotify notify(path().c_str());
   assert_true(notify.status("one\nWATCHDOG=trigger"));
@@ -99,7 +99,7 @@ void a_status_is_one_line_of_200_bytes(void**) {
   assert_string_equal(manager.heard().c_str(), ("STATUS=" + std::string(200, 'x')).c_str());
 }
 
-void nobody_listens(void**) {
+TEST(nobody_listens) {
   for (const char* const name : {static_cast<const char*>(nullptr), "", "relative/path",
                                  "/nowhere/at/all", "@graben-nobody-is-here"}) {
     ServiceNotify notify(name);
@@ -109,7 +109,7 @@ void nobody_listens(void**) {
   }
 }
 
-void a_name_fits_or_is_refused(void**) {
+TEST(a_name_fits_or_is_refused) {
   constexpr std::size_t kPathBytes = sizeof(sockaddr_un::sun_path);
   std::string longest = path();
   longest.resize(kPathBytes - 1, 'n');
@@ -124,7 +124,7 @@ void a_name_fits_or_is_refused(void**) {
   assert_false(notify.connected());
 }
 
-void a_manager_that_went_away_or_does_not_read(void**) {
+TEST(a_manager_that_went_away_or_does_not_read) {
   ServiceNotify* notify = nullptr;
   {
     const Manager manager(path());
@@ -142,7 +142,7 @@ void a_manager_that_went_away_or_does_not_read(void**) {
   delete notify;
 }
 
-void the_watchdog_interval_is_for_us(void**) {
+TEST(the_watchdog_interval_is_for_us) {
   constexpr pid_t kOwn = 4711;
   assert_int_equal(watchdog_interval_us("100000", "4711", kOwn), 100'000);
   assert_int_equal(watchdog_interval_us("100000", nullptr, kOwn), 100'000);
@@ -168,7 +168,7 @@ int in_child(Body body) {
   return WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-void a_stop_signal_is_caught_once(void**) {
+TEST(a_stop_signal_is_caught_once) {
   for (const int signal : {SIGTERM, SIGINT}) {
     const int other = signal == SIGTERM ? SIGINT : SIGTERM;
     assert_int_equal(in_child([signal] {
@@ -197,15 +197,4 @@ void a_stop_signal_is_caught_once(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(every_message_arrives),
-      cmocka_unit_test(a_status_is_one_line_of_200_bytes),
-      cmocka_unit_test(nobody_listens),
-      cmocka_unit_test(a_name_fits_or_is_refused),
-      cmocka_unit_test(a_manager_that_went_away_or_does_not_read),
-      cmocka_unit_test(the_watchdog_interval_is_for_us),
-      cmocka_unit_test(a_stop_signal_is_caught_once),
-  };
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+RUN_TESTS_WITHIN(make_folder, remove_folder)

@@ -65,7 +65,7 @@ struct FaultyRig : Rig {
   }
 };
 
-void a_new_port_is_closed(void**) {
+TEST(a_new_port_is_closed) {
   SocketCanPort port("can7", {}, &open_pair);
   CanFrame frame;
   assert_int_equal(port.state(), State::kClosed);
@@ -75,7 +75,7 @@ void a_new_port_is_closed(void**) {
   assert_string_equal(port.last_error(), "");
 }
 
-void it_asks_for_its_ids_or_for_all(void**) {
+TEST(it_asks_for_its_ids_or_for_all) {
   g_next = OpenedCanSocket{};
   SocketCanPort two("can7", {0x18FF5027U, 0x0CF00400U}, &open_pair);
   assert_false(two.open());
@@ -87,7 +87,7 @@ void it_asks_for_its_ids_or_for_all(void**) {
   assert_true(g_config.filters.empty());
 }
 
-void a_full_queue_drops_and_goes_on(void**) {
+TEST(a_full_queue_drops_and_goes_on) {
   FaultyRig rig;
   std::uint32_t sent = 0;
   while (rig.port.send(outgoing(sent))) {
@@ -114,7 +114,7 @@ void a_full_queue_drops_and_goes_on(void**) {
   assert_int_equal(rig.port.counters().dropped_transmit, 5);
 }
 
-void what_no_controller_sends_is_refused(void**) {
+TEST(what_no_controller_sends_is_refused) {
   FaultyRig rig;
   CanFrame frame = outgoing(1);
   frame.length = 9;
@@ -124,7 +124,7 @@ void what_no_controller_sends_is_refused(void**) {
   assert_int_equal(read(g_bus, &seen, sizeof seen), -1);
 }
 
-void an_interface_that_goes_is_down_until_opened(void**) {
+TEST(an_interface_that_goes_is_down_until_opened) {
   for (const int reason : {ENETDOWN, ENODEV, ENXIO}) {
     for (const bool sending : {true, false}) {
       FaultyRig rig;
@@ -154,7 +154,7 @@ void an_interface_that_goes_is_down_until_opened(void**) {
   }
 }
 
-void a_short_queue_is_one_call(void**) {
+TEST(a_short_queue_is_one_call) {
   FaultyRig rig;
   from_bus(raw(5U | CAN_EFF_FLAG));
   g_receive_calls = 0;
@@ -162,7 +162,7 @@ void a_short_queue_is_one_call(void**) {
   assert_int_equal(g_receive_calls, 1);
 }
 
-void nothing_to_read_is_no_fault(void**) {
+TEST(nothing_to_read_is_no_fault) {
   FaultyRig rig;
   for (const int reason : {EAGAIN, EINTR}) {
     g_receive_errno = reason;
@@ -175,7 +175,7 @@ void nothing_to_read_is_no_fault(void**) {
   assert_int_equal(rig.port.state(), State::kDown);
 }
 
-void opening_again_discards_what_was_queued(void**) {
+TEST(opening_again_discards_what_was_queued) {
   FaultyRig rig;
   from_bus(raw(5U | CAN_EFF_FLAG));
   report(CAN_ERR_BUSOFF);
@@ -189,7 +189,7 @@ void opening_again_discards_what_was_queued(void**) {
   assert_int_equal(rig.frames[0].id, 6);
 }
 
-void the_old_socket_is_closed(void**) {
+TEST(the_old_socket_is_closed) {
   FaultyRig rig;
   const int old_bus = dup(g_bus);
   assert_true(rig.port.open());
@@ -199,7 +199,7 @@ void the_old_socket_is_closed(void**) {
 }
 
 /// The kernel's stamps go on by the true clock here; only what the port reads is ahead.
-void a_step_of_the_wall_clock_makes_no_frame_old(void**) {
+TEST(a_step_of_the_wall_clock_makes_no_frame_old) {
   constexpr TimeUs kStepUs = 500'000;
   FaultyRig rig;
   from_bus(raw(5U | CAN_EFF_FLAG));
@@ -216,7 +216,7 @@ void a_step_of_the_wall_clock_makes_no_frame_old(void**) {
   assert_true(rig.frames[0].stamp_us <= monotonic_now_us() - kStepUs);
 }
 
-void the_state_found_on_opening_counts(void**) {
+TEST(the_state_found_on_opening_counts) {
   FaultyRig rig;
   for (const State found : {State::kErrorPassive, State::kBusOff}) {
     g_next.state = found;
@@ -226,7 +226,7 @@ void the_state_found_on_opening_counts(void**) {
   }
 }
 
-void a_failed_opening_says_why(void**) {
+TEST(a_failed_opening_says_why) {
   FaultyRig rig;
   g_next = OpenedCanSocket{};
   g_next.error.set("no bus today");
@@ -244,7 +244,7 @@ void a_failed_opening_says_why(void**) {
 }
 
 /// Here and anywhere: with CAN or without it in the kernel, no interface has these names.
-void the_real_opener_names_what_is_missing(void**) {
+TEST(the_real_opener_names_what_is_missing) {
   g_send_errno = 0;
   for (const char* const name : {"", "no-such-can", "a-name-that-is-too-long"}) {
     SocketCanPort port(name, {0x18FF5027U});
@@ -256,7 +256,7 @@ void the_real_opener_names_what_is_missing(void**) {
   }
 }
 
-void a_cycle_and_an_opening_allocate_nothing(void**) {
+TEST(a_cycle_and_an_opening_allocate_nothing) {
   FaultyRig rig;
   SocketCanPort real("no-such-can", {0x18FF5027U});
   const std::uint64_t before = allocation_count();
@@ -274,22 +274,4 @@ void a_cycle_and_an_opening_allocate_nothing(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_new_port_is_closed),
-      cmocka_unit_test(it_asks_for_its_ids_or_for_all),
-      cmocka_unit_test(a_full_queue_drops_and_goes_on),
-      cmocka_unit_test(what_no_controller_sends_is_refused),
-      cmocka_unit_test(an_interface_that_goes_is_down_until_opened),
-      cmocka_unit_test(a_short_queue_is_one_call),
-      cmocka_unit_test(nothing_to_read_is_no_fault),
-      cmocka_unit_test(opening_again_discards_what_was_queued),
-      cmocka_unit_test(the_old_socket_is_closed),
-      cmocka_unit_test(a_step_of_the_wall_clock_makes_no_frame_old),
-      cmocka_unit_test(the_state_found_on_opening_counts),
-      cmocka_unit_test(a_failed_opening_says_why),
-      cmocka_unit_test(the_real_opener_names_what_is_missing),
-      cmocka_unit_test(a_cycle_and_an_opening_allocate_nothing),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

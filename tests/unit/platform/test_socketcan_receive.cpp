@@ -13,7 +13,7 @@ using namespace graben;
 using namespace graben::test;
 using State = CanPortState;
 
-void frames_come_in_order_with_stamps(void**) {
+TEST(frames_come_in_order_with_stamps) {
   Rig rig;
   const TimeUs before_us = monotonic_now_us();
   from_bus(raw(1U | CAN_EFF_FLAG, 11));
@@ -30,7 +30,7 @@ void frames_come_in_order_with_stamps(void**) {
   assert_int_equal(rig.port.counters().received, 2);
 }
 
-void receive_is_bounded_and_goes_on(void**) {
+TEST(receive_is_bounded_and_goes_on) {
   Rig rig;
   for (unsigned char i = 0; i < 8; ++i) {
     from_bus(raw(CAN_EFF_FLAG, i));
@@ -70,7 +70,7 @@ OpenedCanSocket open_udp(const CanSocketConfig&) {
   return result;
 }
 
-void a_long_queue_takes_several_batches(void**) {
+TEST(a_long_queue_takes_several_batches) {
   SocketCanPort port("can7", {}, &open_udp);
   if (!port.open()) {
     skip();
@@ -87,7 +87,7 @@ void a_long_queue_takes_several_batches(void**) {
   assert_int_equal(frames[3].id, 99);
 }
 
-void what_the_queue_lost_is_counted_over_all_sockets(void**) {
+TEST(what_the_queue_lost_is_counted_over_all_sockets) {
   SocketCanPort port("can7", {}, &open_udp);
   std::array<CanFrame, 256> frames;
   std::uint64_t expected = 0;
@@ -113,7 +113,7 @@ void what_the_queue_lost_is_counted_over_all_sockets(void**) {
   }
 }
 
-void a_flood_of_error_frames_is_bounded(void**) {
+TEST(a_flood_of_error_frames_is_bounded) {
   SocketCanPort port("can7", {}, &open_udp);
   if (!port.open()) {
     skip();
@@ -130,7 +130,7 @@ void a_flood_of_error_frames_is_bounded(void**) {
 }
 
 /// It has to stop the machine all the same.
-void a_bus_off_that_ends_within_a_call_is_seen(void**) {
+TEST(a_bus_off_that_ends_within_a_call_is_seen) {
   Rig rig;
   report(CAN_ERR_BUSOFF);
   report(CAN_ERR_RESTARTED);
@@ -143,7 +143,7 @@ void a_bus_off_that_ends_within_a_call_is_seen(void**) {
   assert_int_equal(read(g_bus, &seen, sizeof seen), sizeof seen);
 }
 
-void error_frames_make_the_state(void**) {
+TEST(error_frames_make_the_state) {
   Rig rig;
   report(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE);
   from_bus(raw(5U | CAN_EFF_FLAG));
@@ -171,7 +171,7 @@ void error_frames_make_the_state(void**) {
   assert_int_equal(read(g_bus, &seen, sizeof seen), -1);
 }
 
-void a_controller_that_lost_frames_is_counted(void**) {
+TEST(a_controller_that_lost_frames_is_counted) {
   Rig rig;
   report(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW);
   assert_int_equal(rig.receive(), 0);
@@ -179,7 +179,7 @@ void a_controller_that_lost_frames_is_counted(void**) {
   assert_int_equal(rig.port.state(), State::kActive);
 }
 
-void frames_of_another_size_are_counted_and_dropped(void**) {
+TEST(frames_of_another_size_are_counted_and_dropped) {
   Rig rig;
   const canfd_frame fd{};
   assert_int_equal(write(g_bus, &fd, sizeof fd), sizeof fd);
@@ -192,17 +192,4 @@ void frames_of_another_size_are_counted_and_dropped(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(frames_come_in_order_with_stamps),
-      cmocka_unit_test(receive_is_bounded_and_goes_on),
-      cmocka_unit_test(a_long_queue_takes_several_batches),
-      cmocka_unit_test(what_the_queue_lost_is_counted_over_all_sockets),
-      cmocka_unit_test(a_flood_of_error_frames_is_bounded),
-      cmocka_unit_test(a_bus_off_that_ends_within_a_call_is_seen),
-      cmocka_unit_test(error_frames_make_the_state),
-      cmocka_unit_test(a_controller_that_lost_frames_is_counted),
-      cmocka_unit_test(frames_of_another_size_are_counted_and_dropped),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

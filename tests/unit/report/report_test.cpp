@@ -87,7 +87,7 @@ const json& sample() {
   return data;
 }
 
-void holds_page_and_data(void**) {
+TEST(holds_page_and_data) {
   const fs::path file = folder() / "whole.html";
   write_report(file, sample());
   const std::string page = content(file);
@@ -99,7 +99,7 @@ void holds_page_and_data(void**) {
   assert_int_equal(page.find_last_not_of('\n'), page.rfind("</html>") + 6);
 }
 
-void refers_to_nothing_outside(void**) {
+TEST(refers_to_nothing_outside) {
   const fs::path file = folder() / "alone.html";
   write_report(file, sample());
   const std::string page = content(file);
@@ -121,7 +121,7 @@ void refers_to_nothing_outside(void**) {
   assert_false(contains(page.substr(0, page.find("<script")), "://"));
 }
 
-void title_cannot_break_out(void**) {
+TEST(title_cannot_break_out) {
   const fs::path file = folder() / "escape.html";
   write_report(file, sample());
   const std::string harmless = content(file);
@@ -137,7 +137,7 @@ void title_cannot_break_out(void**) {
   assert_true(embedded(page) == data);
 }
 
-void unreadable_values_become_gaps(void**) {
+TEST(unreadable_values_become_gaps) {
   const fs::path file = folder() / "gaps.html";
   json data = sample();
   data["series"]["lambda"][1] = std::numeric_limits<double>::quiet_NaN();
@@ -148,7 +148,7 @@ void unreadable_values_become_gaps(void**) {
   assert_true(contains(read["subtitle"].get<std::string>(), "not UTF-8"));
 }
 
-void replaces_an_old_report(void**) {
+TEST(replaces_an_old_report) {
   const fs::path own = folder() / "replace";
   fs::create_directory(own);
   put(own / "r.html", "old");
@@ -159,7 +159,7 @@ void replaces_an_old_report(void**) {
   assert_int_equal(files_in(own), 2);  // nothing temporary is left
 }
 
-void unwritable_target_is_named(void**) {
+TEST(unwritable_target_is_named) {
   const fs::path missing = folder() / "no_such_folder" / "r.html";
   assert_true(contains(refusal(missing), missing.string()));
 
@@ -181,7 +181,7 @@ void unwritable_target_is_named(void**) {
 }
 
 /// gzip's header and what `printf 'abc' | gzip` has as its length and CRC at the end.
-void packs_as_gzip(void**) {
+TEST(packs_as_gzip) {
   const std::string text = packed("abc");
   assert_int_equal(text.size() % 4, 0);
   assert_string_equal(text.substr(0, 4).c_str(), "H4sI");
@@ -192,7 +192,7 @@ void packs_as_gzip(void**) {
   assert_string_equal(packed_file(file).c_str(), text.c_str());
 }
 
-void missing_log_is_named(void**) {
+TEST(missing_log_is_named) {
   const fs::path missing = folder() / "no_such.log";
   try {
     static_cast<void>(packed_file(missing));
@@ -203,7 +203,7 @@ void missing_log_is_named(void**) {
 }
 
 /// A full disk, as near as a test gets: files may not grow beyond 1 kB.
-void failed_write_leaves_old_report(void**) {
+TEST(failed_write_leaves_old_report) {
   const fs::path own = folder() / "full";
   fs::create_directory(own);
   const fs::path file = own / "r.html";
@@ -226,17 +226,4 @@ void failed_write_leaves_old_report(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(holds_page_and_data),
-      cmocka_unit_test(refers_to_nothing_outside),
-      cmocka_unit_test(title_cannot_break_out),
-      cmocka_unit_test(unreadable_values_become_gaps),
-      cmocka_unit_test(replaces_an_old_report),
-      cmocka_unit_test(unwritable_target_is_named),
-      cmocka_unit_test(failed_write_leaves_old_report),
-      cmocka_unit_test(packs_as_gzip),
-      cmocka_unit_test(missing_log_is_named),
-  };
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+RUN_TESTS_WITHIN(make_folder, remove_folder)

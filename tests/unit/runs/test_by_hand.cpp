@@ -21,7 +21,7 @@ Eigen::Vector3d start_m() {
 }
 
 /// 6 mm; an ideal plant would make it 0.
-void two_metres_forward_are_straight(void**) {
+TEST(two_metres_forward_are_straight) {
   HandsRig rig(test::excavator(), start_m(), Task::kCoordinated);
   rig.work();
   rig.hands.lever_ratio[kForward] = 1.0;
@@ -50,7 +50,7 @@ void two_metres_forward_are_straight(void**) {
 }
 
 /// Each axis goes its way, and only it.
-void each_axis_goes_its_way(void**) {
+TEST(each_axis_goes_its_way) {
   for (const unsigned axis : {kUp, kForward, kAttitude}) {
     for (const double lever : {0.4, -0.4}) {
       HandsRig rig(test::excavator(), start_m(), Task::kCoordinated);
@@ -71,7 +71,7 @@ void each_axis_goes_its_way(void**) {
 }
 
 /// It slows to nothing before its arm's end, on its line, says why, and comes back.
-void a_line_ends_where_a_cylinder_does(void**) {
+TEST(a_line_ends_where_a_cylinder_does) {
   HandsRig rig(test::excavator(), start_m(), Task::kCoordinated);
   rig.work();
   rig.hands.lever_ratio[kForward] = 1.0;
@@ -92,7 +92,7 @@ void a_line_ends_where_a_cylinder_does(void**) {
 }
 
 /// One at its end lets the others go on.
-void each_drive_jogs_to_its_own_end(void**) {
+TEST(each_drive_jogs_to_its_own_end) {
   HandsRig rig(test::excavator(), start_m(), Task::kJog);
   rig.work();
   rig.hands.lever_ratio[kArm] = -1.0;
@@ -116,7 +116,7 @@ void each_drive_jogs_to_its_own_end(void**) {
 }
 
 /// A lever that is held when the operator enables: no arming; it is shown why.
-void levers_have_to_rest_for_arming(void**) {
+TEST(levers_have_to_rest_for_arming) {
   for (const Task task : {Task::kJog, Task::kCoordinated}) {
     HandsRig rig(test::excavator(), start_m(), task);
     rig.hands.lever_ratio[kArm] = 0.5;
@@ -129,7 +129,7 @@ void levers_have_to_rest_for_arming(void**) {
 }
 
 /// One that is held when the task begins has to come to rest first.
-void a_task_begins_with_its_levers_at_rest(void**) {
+TEST(a_task_begins_with_its_levers_at_rest) {
   HandsRig rig(test::excavator(), start_m(), Task::kJog);
   const Eigen::Vector3d before_m = rig.strokes_m();
   rig.run(0.25);
@@ -146,7 +146,7 @@ void a_task_begins_with_its_levers_at_rest(void**) {
 }
 
 /// As soon as a joystick's command would: neutral, latched, until the operator arms again.
-void levers_that_are_silent_stop(void**) {
+TEST(levers_that_are_silent_stop) {
   for (const Task task : {Task::kJog, Task::kCoordinated}) {
     HandsRig rig(test::excavator(), start_m(), task);
     rig.work();
@@ -164,7 +164,7 @@ void levers_that_are_silent_stop(void**) {
   }
 }
 
-void the_deadman_is_neutral_at_once(void**) {
+TEST(the_deadman_is_neutral_at_once) {
   for (const Task task : {Task::kJog, Task::kCoordinated}) {
     HandsRig rig(test::excavator(), start_m(), task);
     rig.work();
@@ -180,16 +180,4 @@ void the_deadman_is_neutral_at_once(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(two_metres_forward_are_straight),
-      cmocka_unit_test(each_axis_goes_its_way),
-      cmocka_unit_test(a_line_ends_where_a_cylinder_does),
-      cmocka_unit_test(each_drive_jogs_to_its_own_end),
-      cmocka_unit_test(levers_have_to_rest_for_arming),
-      cmocka_unit_test(a_task_begins_with_its_levers_at_rest),
-      cmocka_unit_test(levers_that_are_silent_stop),
-      cmocka_unit_test(the_deadman_is_neutral_at_once),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

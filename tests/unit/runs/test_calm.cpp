@@ -29,7 +29,7 @@ std::vector<double> sampled(int cycles, const std::function<double(double time_s
 double sine(double frequency_hz, double time_s) { return std::sin(kTwoPi * frequency_hz * time_s); }
 
 /// A sine of 0.5 Hz and amplitude 2 goes 8 up and down in each period of 2 s.
-void a_sine_varies_by_four_amplitudes_a_period(void**) {
+TEST(a_sine_varies_by_four_amplitudes_a_period) {
   Variation variation;
   assert_near(variation.per_s(), 0.0, 0.0);
   for (const double value : sampled(1001, [](double t) { return 3.0 + 2.0 * sine(0.5, t); })) {
@@ -39,7 +39,7 @@ void a_sine_varies_by_four_amplitudes_a_period(void**) {
   assert_near(variation.per_s(), 4.0, 1e-3);
 }
 
-void a_gap_is_no_variation(void**) {
+TEST(a_gap_is_no_variation) {
   Variation variation;
   for (const double value : {1.0, 1.5}) {
     variation.add(value);
@@ -61,7 +61,7 @@ SpoolCalm spool_of(const std::vector<double>& travels) {
 }
 
 /// 2 Hz for 10 s: 39 changes of side, of 0.6 each.
-void a_square_wave_reverses_twice_a_period(void**) {
+TEST(a_square_wave_reverses_twice_a_period) {
   const SpoolCalm spool =
       spool_of(sampled(1001, [](double t) { return sine(2.0, t + 1e-3) > 0.0 ? 0.3 : -0.3; }));
   assert_near(spool.reversals_ps(), 4.0, 1e-9);
@@ -69,7 +69,7 @@ void a_square_wave_reverses_twice_a_period(void**) {
 }
 
 /// Standing there, coming back out on the same side, and moving within it.
-void the_dead_band_is_no_side(void**) {
+TEST(the_dead_band_is_no_side) {
   assert_near(spool_of({0.3, 0.05, -0.05, 0.0, 0.3}).reversals_ps(), 0.0, 0.0);
   assert_near(spool_of({-0.3, -0.05, 0.05, 0.0, -0.3}).reversals_ps(), 0.0, 0.0);
   assert_near(spool_of({0.09, -0.09, 0.1, -0.1}).reversals_ps(), 0.0, 0.0);
@@ -80,7 +80,7 @@ void the_dead_band_is_no_side(void**) {
   assert_near(spool_of({}).reversals_ps(), 0.0, 0.0);
 }
 
-void no_reversal_over_a_gap(void**) {
+TEST(no_reversal_over_a_gap) {
   SpoolCalm spool = spool_of({0.3, 0.3});
   spool.pause();
   spool.add(-0.3);
@@ -98,7 +98,7 @@ Jerk jerk_of(int cycles, const std::function<Eigen::Vector3d(double time_s)>& at
 }
 
 /// x = 2 t^3 has 12 m/s3, z = -t^3 / 6 has -1, and a parabola none.
-void a_cubic_has_its_jerk(void**) {
+TEST(a_cubic_has_its_jerk) {
   const auto cubic = [](double t) {
     return Eigen::Vector3d(2.0 * t * t * t, 5.0 * t * t + t, -t * t * t / 6.0);
   };
@@ -109,7 +109,7 @@ void a_cubic_has_its_jerk(void**) {
 
 /// Amplitude times (2 pi f)^3, over the root of 2. At 1 Hz the low-pass takes 1e-4 of it, the
 /// difference over four cycles 5e-4.
-void a_sine_has_its_jerk(void**) {
+TEST(a_sine_has_its_jerk) {
   const auto slow = [](double t) { return Eigen::Vector3d(0.0, 0.0, 0.01 * sine(1.0, t)); };
   const double known_mps3 = 0.01 * kTwoPi * kTwoPi * kTwoPi / std::sqrt(2.0);
   assert_near(jerk_of(1000, slow).rms_mps3(), known_mps3, 5e-3 * known_mps3);
@@ -120,7 +120,7 @@ void a_sine_has_its_jerk(void**) {
   assert_true(jerk_of(1000, shaken).rms_mps3() < 2.0 * known_mps3);
 }
 
-void no_jerk_over_a_gap(void**) {
+TEST(no_jerk_over_a_gap) {
   Jerk jerk;
   for (const double jump_m : {0.0, 1.0, -3.0}) {
     for (int n = 0; n < 50; ++n) {
@@ -132,7 +132,7 @@ void no_jerk_over_a_gap(void**) {
 }
 
 /// The low-pass leaves 1 / (1 + (f / 1 Hz)^4) of each sine.
-void only_what_is_fast_rings(void**) {
+TEST(only_what_is_fast_rings) {
   const auto both = [](double t) { return 0.02 * sine(3.0, t + 0.07) + 0.5 * sine(0.2, t); };
   const auto fast = [](double t) { return 0.02 * sine(3.0, t + 0.07); };
   const double known = 0.02 / std::sqrt(2.0);
@@ -144,7 +144,7 @@ void only_what_is_fast_rings(void**) {
 }
 
 /// A record that begins and ends far from 0, on a slope: the filter must not ring of that.
-void the_ends_do_not_ring(void**) {
+TEST(the_ends_do_not_ring) {
   for (const int cycles : {1, 2, 5, 100, 3000}) {
     const std::vector<double> level(static_cast<std::size_t>(cycles), 4.0);
     assert_near(ringing_rms(level, 1.0), 0.0, 1e-9);
@@ -164,7 +164,7 @@ void the_ends_do_not_ring(void**) {
 }
 
 /// Forwards and backwards: what is symmetric stays so, and in its place.
-void nothing_is_late(void**) {
+TEST(nothing_is_late) {
   const auto bump = [](double t) { return std::exp(-(t - 5.0) * (t - 5.0)); };
   const std::vector<double> slow = slow_part(sampled(1001, bump), 1.0);
   for (std::size_t n = 0; n < 500; ++n) {
@@ -175,19 +175,4 @@ void nothing_is_late(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_sine_varies_by_four_amplitudes_a_period),
-      cmocka_unit_test(a_gap_is_no_variation),
-      cmocka_unit_test(a_square_wave_reverses_twice_a_period),
-      cmocka_unit_test(the_dead_band_is_no_side),
-      cmocka_unit_test(no_reversal_over_a_gap),
-      cmocka_unit_test(a_cubic_has_its_jerk),
-      cmocka_unit_test(a_sine_has_its_jerk),
-      cmocka_unit_test(no_jerk_over_a_gap),
-      cmocka_unit_test(only_what_is_fast_rings),
-      cmocka_unit_test(the_ends_do_not_ring),
-      cmocka_unit_test(nothing_is_late),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

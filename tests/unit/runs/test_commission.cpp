@@ -54,7 +54,7 @@ struct Station : HandsRig {
   }
 };
 
-void a_duty_moves_its_drive_and_no_other(void**) {
+TEST(a_duty_moves_its_drive_and_no_other) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (const double duty : {0.4, -0.4}) {
       Station rig;
@@ -81,7 +81,7 @@ void a_duty_moves_its_drive_and_no_other(void**) {
 }
 
 /// A machine of which the profile knows little is not stopped: edges, exponents, dead times, lags.
-void a_sound_machine_nobody_knows_is_not_stopped(void**) {
+TEST(a_sound_machine_nobody_knows_is_not_stopped) {
   struct Found {
     double edge;
     double exponent;
@@ -117,7 +117,7 @@ void a_sound_machine_nobody_knows_is_not_stopped(void**) {
   }
 }
 
-void the_window_holds(void**) {
+TEST(the_window_holds) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (const double side : {1.0, -1.0}) {
       Station rig;
@@ -133,7 +133,7 @@ void the_window_holds(void**) {
   }
 }
 
-void without_a_fresh_window_nothing_moves(void**) {
+TEST(without_a_fresh_window_nothing_moves) {
   Station rig;
   rig.driver.faults().set_silent(dbc::excavator::CommissionWindow::kId, true);
   rig.run(1.1);
@@ -143,7 +143,7 @@ void without_a_fresh_window_nothing_moves(void**) {
 }
 
 /// Within 50 mm, in whatever duty; the pilot pressure goes.
-void a_reversed_valve(void**) {
+TEST(a_reversed_valve) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (const double duty : {kDuty, -kDuty, 0.8, -0.8}) {
       Station rig;
@@ -156,7 +156,7 @@ void a_reversed_valve(void**) {
   }
 }
 
-void swapped_sensors(void**) {
+TEST(swapped_sensors) {
   for (const unsigned axis : {0U, 1U}) {
     for (const double duty : {kDuty, -kDuty}) {
       Station rig;
@@ -170,7 +170,7 @@ void swapped_sensors(void**) {
 }
 
 /// Known by the pressures, except of a boom that rises; that by the bound of what may be tried.
-void a_stuck_sensor(void**) {
+TEST(a_stuck_sensor) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (const double duty : {0.4, -0.4}) {
       Station rig;
@@ -183,7 +183,7 @@ void a_stuck_sensor(void**) {
 }
 
 /// One that hangs after its drive has moved is known by that.
-void a_sensor_that_gets_stuck(void**) {
+TEST(a_sensor_that_gets_stuck) {
   Station rig;
   rig.try_duty(kBoom, 0.4, 2.0);
   rig.try_duty(kBoom, 0.0, 1.5);
@@ -193,7 +193,7 @@ void a_sensor_that_gets_stuck(void**) {
   rig.expect_stop({Fault::kStrokeStuck}, [&] { rig.plant.faults().axis[kBoom].stroke = {}; });
 }
 
-void the_engine_stops(void**) {
+TEST(the_engine_stops) {
   Station rig;
   rig.try_duty(kArm, 0.4, 0.5);
   rig.plant.faults().engine_ratio = 0.0;
@@ -201,7 +201,7 @@ void the_engine_stops(void**) {
   rig.expect_stop({Fault::kEngineStopped}, [&] { rig.plant.faults().engine_ratio = 1.0; });
 }
 
-void the_operator_lets_go(void**) {
+TEST(the_operator_lets_go) {
   Station rig;
   rig.try_duty(kArm, 0.4, 0.5);
   rig.release();
@@ -215,7 +215,7 @@ void the_operator_lets_go(void**) {
   rig.work_again();
 }
 
-void duties_that_are_silent(void**) {
+TEST(duties_that_are_silent) {
   Station rig;
   rig.try_duty(kArm, 0.4, 0.5);
   rig.driver.faults().set_silent(dbc::excavator::CommissionDuty::kId, true);
@@ -225,7 +225,7 @@ void duties_that_are_silent(void**) {
   });
 }
 
-void the_bus_is_gone(void**) {
+TEST(the_bus_is_gone) {
   Station rig;
   rig.try_duty(kArm, 0.4, 0.5);
   rig.ecu_port.set_state(CanPortState::kDown);
@@ -237,7 +237,7 @@ void the_bus_is_gone(void**) {
 }
 
 /// Against a rock in its window's middle.
-void a_blocked_cylinder(void**) {
+TEST(a_blocked_cylinder) {
   machines::Scenario scenario;
   scenario.obstacle = true;
   machines::SimulatedExcavator machine = machines::arranged(test::excavator(), scenario);
@@ -255,7 +255,7 @@ void a_blocked_cylinder(void**) {
 }
 
 /// Two at once at most.
-void three_duties_are_refused(void**) {
+TEST(three_duties_are_refused) {
   Station rig;
   rig.hands.tried_ratio = {0.4, 0.4, 0.0};
   rig.run(0.5);
@@ -265,7 +265,7 @@ void three_duties_are_refused(void**) {
   rig.expect_stop({Fault::kCommissionBound}, [] {});
 }
 
-void too_fast_for_its_window(void**) {
+TEST(too_fast_for_its_window) {
   Station rig;
   rig.hands.window[kArm]->most_mps = 0.05;
   rig.run(0.5);
@@ -275,23 +275,4 @@ void too_fast_for_its_window(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_duty_moves_its_drive_and_no_other),
-      cmocka_unit_test(a_sound_machine_nobody_knows_is_not_stopped),
-      cmocka_unit_test(the_window_holds),
-      cmocka_unit_test(without_a_fresh_window_nothing_moves),
-      cmocka_unit_test(a_reversed_valve),
-      cmocka_unit_test(swapped_sensors),
-      cmocka_unit_test(a_stuck_sensor),
-      cmocka_unit_test(a_sensor_that_gets_stuck),
-      cmocka_unit_test(the_engine_stops),
-      cmocka_unit_test(the_operator_lets_go),
-      cmocka_unit_test(duties_that_are_silent),
-      cmocka_unit_test(the_bus_is_gone),
-      cmocka_unit_test(a_blocked_cylinder),
-      cmocka_unit_test(three_duties_are_refused),
-      cmocka_unit_test(too_fast_for_its_window),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -50,7 +50,7 @@ double figure(const RunFigures& figures, const std::string& name) {
   return kAbsent;
 }
 
-void figures_are_of_the_time_on_the_path(void**) {
+TEST(figures_are_of_the_time_on_the_path) {
   const RunFigures figures = figures_of(summarise(made()));
   assert_near(figure(figures, "lambda_variation_ps"), 0.0, 0.0);
   assert_near(figure(figures, "spool_travel_ps.boom"), 0.0, 0.0);
@@ -67,7 +67,7 @@ void figures_are_of_the_time_on_the_path(void**) {
   assert_near(figure(figures, "swash_mean"), 0.6, 1e-9);
 }
 
-void a_run_that_never_came_to_its_path_has_no_figures_of_it(void**) {
+TEST(a_run_that_never_came_to_its_path_has_no_figures_of_it) {
   DigResult result = made();
   for (DigSample& sample : result.samples) {
     sample.on_path = false;
@@ -86,7 +86,7 @@ void a_run_that_never_came_to_its_path_has_no_figures_of_it(void**) {
 }
 
 /// On the way to the path too; without such ground there is no figure.
-void what_was_cut_is_told(void**) {
+TEST(what_was_cut_is_told) {
   DigResult result = made();
   assert_true(std::isnan(figure(figures_of(summarise(result)), "cut_m3")));
   assert_true(std::isnan(figure(figures_of(summarise(result)), "fill_max_m3")));
@@ -99,7 +99,7 @@ void what_was_cut_is_told(void**) {
 
 /// Two steps, left in the second one of the third round: the energy of 2.5 rounds,
 /// without that of the approach between.
-void a_tasks_energy_is_of_a_round(void**) {
+TEST(a_tasks_energy_is_of_a_round) {
   TaskProgram program;
   program.step_count = 2;
   AutodigResult result;
@@ -136,7 +136,7 @@ void a_tasks_energy_is_of_a_round(void**) {
 
 /// A step whose end was not reached is told with how far it was from it, measured and true; one
 /// that is the run's last as well, since the controller counts it in the cycle after.
-void what_has_not_arrived_is_told(void**) {
+TEST(what_has_not_arrived_is_told) {
   TaskProgram program;
   program.step_count = 2;
   program.step[0].kind = StepKind::kDig;
@@ -179,13 +179,4 @@ void what_has_not_arrived_is_told(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(figures_are_of_the_time_on_the_path),
-      cmocka_unit_test(a_run_that_never_came_to_its_path_has_no_figures_of_it),
-      cmocka_unit_test(what_was_cut_is_told),
-      cmocka_unit_test(a_tasks_energy_is_of_a_round),
-      cmocka_unit_test(what_has_not_arrived_is_told),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

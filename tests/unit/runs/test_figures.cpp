@@ -39,7 +39,7 @@ void assert_sound(const FigureTable<Summary>& table) {
   assert_int_equal(columns.size(), kept);
 }
 
-void no_two_figures_have_one_name(void**) {
+TEST(no_two_figures_have_one_name) {
   assert_sound(dig_figures());
   assert_sound(grade_figures());
   assert_sound(autodig_figures());
@@ -54,7 +54,7 @@ std::string header(const std::vector<const FigureInfo*>& columns) {
 }
 
 /// Campaigns that were begun go on, and their files are read by others.
-void a_campaigns_columns_stay_as_they_are(void**) {
+TEST(a_campaigns_columns_stay_as_they_are) {
   assert_string_equal(header(columns_of(dig_figures())).c_str(),
                       "max_error_true_m,rmse_error_true_m,max_error_measured_m,"
                       "rmse_error_measured_m,lambda_min,lambda_mean,lambda_below_1,regeneration,"
@@ -97,7 +97,7 @@ RunFigures made(double error_m, double lambda) {
   return figures_of(made_figures(), summary, "share of time per limit");
 }
 
-void a_text_has_each_figure_in_its_unit(void**) {
+TEST(a_text_has_each_figure_in_its_unit) {
   const std::string text = figures_text(made(0.0123, kAbsent));
   assert_non_null(
       strstr(text.c_str(), "error                                                   12.3 mm\n"));
@@ -108,7 +108,7 @@ void a_text_has_each_figure_in_its_unit(void**) {
   assert_non_null(strstr(text.c_str(), "25.0 %\n"));
 }
 
-void a_row_has_what_has_a_column(void**) {
+TEST(a_row_has_what_has_a_column) {
   const CampaignRow done = campaign_row(0, made(0.5, 0.25));
   assert_int_equal(done.figure.size(), 2);
   assert_near(done.figure[0] + done.figure[1], 0.75, 0.0);
@@ -117,7 +117,7 @@ void a_row_has_what_has_a_column(void**) {
   assert_true(std::isnan(failed.figure[0]) && std::isnan(failed.figure[1]));
 }
 
-void a_campaign_tells_the_bad_end(void**) {
+TEST(a_campaign_tells_the_bad_end) {
   const CampaignKind kind = {"made", {"done", "fault"}, columns_of(made_figures())};
   CampaignData data;
   data.tried = "made";
@@ -131,13 +131,4 @@ void a_campaign_tells_the_bad_end(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(no_two_figures_have_one_name),
-      cmocka_unit_test(a_campaigns_columns_stay_as_they_are),
-      cmocka_unit_test(a_text_has_each_figure_in_its_unit),
-      cmocka_unit_test(a_row_has_what_has_a_column),
-      cmocka_unit_test(a_campaign_tells_the_bad_end),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -13,7 +13,7 @@ namespace {
 using namespace graben;
 using namespace graben::runs;
 
-void texts_are_read(void**) {
+TEST(texts_are_read) {
   const machines::Found found = found_of(
       "oil=0.7,exponent=1.4,dead_band=0.17,spool_lag=0.04,friction=1.5,mass=0.85,pump_flow=0.9,"
       "engine_sag=0.1,dead_time=3e-2");
@@ -27,7 +27,7 @@ void texts_are_read(void**) {
 }
 
 /// The ends of a range are in it.
-void ranges_have_their_ends(void**) {
+TEST(ranges_have_their_ends) {
   for (const char* text : {"oil=0.1", "oil=100", "exponent=0.5", "exponent=4", "dead_band=0.1",
                            "dead_band=0.6", "spool_lag=0.001", "spool_lag=1", "friction=0",
                            "friction=10", "mass=0.1", "mass=10", "pump_flow=0.1", "pump_flow=2",
@@ -36,7 +36,7 @@ void ranges_have_their_ends(void**) {
   }
 }
 
-void wrong_texts_are_refused(void**) {
+TEST(wrong_texts_are_refused) {
   const struct {
     const char* text;
     const char* key;
@@ -78,7 +78,7 @@ void wrong_texts_are_refused(void**) {
 }
 
 /// Campaigns of different machines have different texts.
-void a_scenario_says_it(void**) {
+TEST(a_scenario_says_it) {
   DigScenario scenario;
   scenario.errors = "kim";
   const std::string plain = scenario_text(scenario);
@@ -92,7 +92,7 @@ void a_scenario_says_it(void**) {
   assert_string_equal(machine_text(task).c_str(), "errors none, found dead_time 0.02 s");
 }
 
-void a_task_runs_on_what_is_told(void**) {
+TEST(a_task_runs_on_what_is_told) {
   const machines::SimulatedExcavator nominal =
       machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
   TaskScenario task;
@@ -110,13 +110,4 @@ void a_task_runs_on_what_is_told(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(texts_are_read),
-      cmocka_unit_test(ranges_have_their_ends),
-      cmocka_unit_test(wrong_texts_are_refused),
-      cmocka_unit_test(a_scenario_says_it),
-      cmocka_unit_test(a_task_runs_on_what_is_told),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

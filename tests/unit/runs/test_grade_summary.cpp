@@ -44,7 +44,7 @@ GradeResult steady(int cycles) {
 
 GradeSummary summary_of(const GradeResult& result) { return runs::summarise(machine(), result); }
 
-void a_run_that_never_came_to_the_grade_has_no_figures(void**) {
+TEST(a_run_that_never_came_to_the_grade_has_no_figures) {
   GradeResult result = steady(5);
   for (GradeSample& one : result.samples) {
     one.over_grade = false;
@@ -58,7 +58,7 @@ void a_run_that_never_came_to_the_grade_has_no_figures(void**) {
   assert_int_equal(summary_of({}).pace.cycles, 0);
 }
 
-void errors_count_below_as_above(void**) {
+TEST(errors_count_below_as_above) {
   GradeResult result = steady(4);
   result.samples[1].error_true_m = 0.003;
   result.samples[2].error_true_m = -0.004;
@@ -71,7 +71,7 @@ void errors_count_below_as_above(void**) {
 }
 
 /// The time is the edge's over the grade: what comes before and after is not in it.
-void time_is_that_over_the_grade(void**) {
+TEST(time_is_that_over_the_grade) {
   GradeResult result = steady(101);
   GradeSample before = sample(-100);
   before.over_grade = false;
@@ -86,7 +86,7 @@ void time_is_that_over_the_grade(void**) {
 }
 
 /// 2 % over is kept; what follows within half a metre is the same occasion.
-void flow_above_the_limit_is_counted_by_occasion(void**) {
+TEST(flow_above_the_limit_is_counted_by_occasion) {
   GradeResult result = steady(300);
   result.samples[10].flow_required_m3ps = 1.02e-3;
   assert_int_equal(summary_of(result).flow_occasions, 0);
@@ -100,7 +100,7 @@ void flow_above_the_limit_is_counted_by_occasion(void**) {
   assert_near(summary.flow_above_share, 6.0 / 300.0, 1e-12);
 }
 
-void the_controllers_own_flow_beside_it(void**) {
+TEST(the_controllers_own_flow_beside_it) {
   GradeResult result = steady(3);
   result.samples[1].flow_reported_m3ps = 0.9e-3;
   result.samples[1].flow_limit_reported_m3ps = 1.2e-3;
@@ -108,7 +108,7 @@ void the_controllers_own_flow_beside_it(void**) {
 }
 
 /// Wanted: from cycle to cycle. True: over 0.1 s, or the body's ringing would be all there is.
-void decelerations(void**) {
+TEST(decelerations) {
   GradeResult result = steady(60);
   for (int i = 30; i < 60; ++i) {
     GradeSample& one = result.samples[static_cast<std::size_t>(i)];
@@ -122,7 +122,7 @@ void decelerations(void**) {
 }
 
 /// Up, down, up: two turns; ways of less than 0.02 m/s are none.
-void turns_of_the_wanted_speed(void**) {
+TEST(turns_of_the_wanted_speed) {
   GradeResult result = steady(400);
   for (int i = 0; i < 400; ++i) {
     const double triangle = std::abs((i % 200) - 100) / 100.0;
@@ -137,7 +137,7 @@ void turns_of_the_wanted_speed(void**) {
 }
 
 /// Before the grade, and between its two stretches, blade and speed jump.
-void calm_is_of_the_time_over_the_grade(void**) {
+TEST(calm_is_of_the_time_over_the_grade) {
   GradeResult result = steady(402);
   for (int i = 0; i < 402; ++i) {
     GradeSample& one = result.samples[static_cast<std::size_t>(i)];
@@ -161,16 +161,4 @@ void calm_is_of_the_time_over_the_grade(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_run_that_never_came_to_the_grade_has_no_figures),
-      cmocka_unit_test(errors_count_below_as_above),
-      cmocka_unit_test(time_is_that_over_the_grade),
-      cmocka_unit_test(flow_above_the_limit_is_counted_by_occasion),
-      cmocka_unit_test(the_controllers_own_flow_beside_it),
-      cmocka_unit_test(decelerations),
-      cmocka_unit_test(turns_of_the_wanted_speed),
-      cmocka_unit_test(calm_is_of_the_time_over_the_grade),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -16,7 +16,7 @@ auto of(const runs::GroundCell& cell) {
 }
 
 /// 4 soils, 10 designs, 3 engine speeds: each once, then each with the next draw.
-void every_cell_comes_once_before_the_next_draw(void**) {
+TEST(every_cell_comes_once_before_the_next_draw) {
   assert_int_equal(static_cast<int>(runs::ground_cells()), 120);
   for (std::uint64_t draw = 1; draw <= 3; ++draw) {
     std::set<decltype(of({}))> cells;
@@ -30,7 +30,7 @@ void every_cell_comes_once_before_the_next_draw(void**) {
   }
 }
 
-void the_soil_changes_first_and_the_engine_last(void**) {
+TEST(the_soil_changes_first_and_the_engine_last) {
   assert_true(of(runs::ground_draw(1).cell) == std::make_tuple("sand", 0U, 1000.0));
   assert_true(of(runs::ground_draw(2).cell) == std::make_tuple("loam", 0U, 1000.0));
   assert_true(of(runs::ground_draw(5).cell) == std::make_tuple("sand", 1U, 1000.0));
@@ -40,10 +40,4 @@ void the_soil_changes_first_and_the_engine_last(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(every_cell_comes_once_before_the_next_draw),
-      cmocka_unit_test(the_soil_changes_first_and_the_engine_last),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

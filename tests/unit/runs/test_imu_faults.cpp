@@ -72,14 +72,14 @@ struct Digging {
   TimeUs now = 0;
 };
 
-void silence(void**) {
+TEST(silence) {
   Digging dig;
   dig.change(dig.id(Rates::kId, kArm), [](CanFrame&) { return false; });
   static_cast<void>(dig.stops_within(60));
   assert_int_equal(dig.status().fault, Fault::kStrokeMissing);
 }
 
-void it_calls_itself_degraded(void**) {
+TEST(it_calls_itself_degraded) {
   Digging dig;
   dig.change(dig.id(Forces::kId, kBucket), [](CanFrame& frame) {
     Forces message = Forces::decode(frame.data);
@@ -90,7 +90,7 @@ void it_calls_itself_degraded(void**) {
   static_cast<void>(dig.stops_within(20));
 }
 
-void frozen(void**) {
+TEST(frozen) {
   for (const std::uint32_t message : {Rates::kId, Forces::kId}) {
     Digging dig;
     auto last = std::make_shared<std::optional<CanFrame>>();
@@ -105,7 +105,7 @@ void frozen(void**) {
   }
 }
 
-void a_second_sender(void**) {
+TEST(a_second_sender) {
   Digging dig;
   runs::DigRig& rig = dig.rig;
   CanFrame other;
@@ -126,7 +126,7 @@ void a_second_sender(void**) {
   assert_in_range(time_ms, 10, 120);
 }
 
-void a_jump(void**) {
+TEST(a_jump) {
   Digging dig;
   // An axis is off by 0.35 g all at once: no tilt, whose size would be that of gravity.
   dig.change(dig.id(Forces::kId, kBoom), [](CanFrame& frame) {
@@ -138,7 +138,7 @@ void a_jump(void**) {
   static_cast<void>(dig.stops_within(6000));
 }
 
-void a_bracket_turns(void**) {
+TEST(a_bracket_turns) {
   Digging dig;
   dig.change(dig.id(Forces::kId, kBoom), [](CanFrame& frame) {
     constexpr double kTilt_rad = 0.35;
@@ -155,11 +155,4 @@ void a_bracket_turns(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(silence), cmocka_unit_test(it_calls_itself_degraded),
-      cmocka_unit_test(frozen),  cmocka_unit_test(a_second_sender),
-      cmocka_unit_test(a_jump),  cmocka_unit_test(a_bracket_turns),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

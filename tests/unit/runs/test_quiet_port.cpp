@@ -10,7 +10,7 @@ namespace {
 
 using namespace graben;
 
-void loses_what_is_sent_while_quiet_alone(void**) {
+TEST(loses_what_is_sent_while_quiet_alone) {
   LoopbackBus bus;
   LoopbackPort& other = bus.attach();
   runs::QuietPort port(bus.attach());
@@ -36,7 +36,4 @@ void loses_what_is_sent_while_quiet_alone(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(loses_what_is_sent_while_quiet_alone)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -18,7 +18,7 @@ runs::RunLog read(const std::string& id) {
   return runs::read_run_log(file.path());
 }
 
-void the_controller_tells_the_kind(void**) {
+TEST(the_controller_tells_the_kind) {
   const runs::RunLog excavator = read("18FF3382");  // EcuHydraulics
   assert_false(excavator.is_dozer);
   assert_int_equal(excavator.status_s.size(), 1);
@@ -30,7 +30,4 @@ void the_controller_tells_the_kind(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(the_controller_tells_the_kind)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

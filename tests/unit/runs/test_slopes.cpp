@@ -32,12 +32,12 @@ struct Machine : test::MachineOnBus {
   }
 };
 
-void a_sensor_that_is_lost(void**) {
+TEST(a_sensor_that_is_lost) {
   Machine m;
   m.stops_by([](CanFrame&) { return false; });
 }
 
-void a_sensor_that_says_error_or_nothing(void**) {
+TEST(a_sensor_that_says_error_or_nothing) {
   for (const std::uint8_t top : {std::uint8_t{0xFE}, std::uint8_t{0xFF}}) {
     Machine m;
     m.stops_by(
@@ -49,7 +49,7 @@ void a_sensor_that_says_error_or_nothing(void**) {
   }
 }
 
-void a_sensor_in_doubt(void**) {
+TEST(a_sensor_in_doubt) {
   for (const std::uint8_t merit : {std::uint8_t{0x04}, std::uint8_t{0x08}}) {
     Machine m;
     m.stops_by(
@@ -61,7 +61,7 @@ void a_sensor_in_doubt(void**) {
   }
 }
 
-void a_sensor_whose_filter_is_late(void**) {
+TEST(a_sensor_whose_filter_is_late) {
   Machine m;
   m.stops_by(
       [](CanFrame& frame) {
@@ -71,7 +71,7 @@ void a_sensor_whose_filter_is_late(void**) {
       2 * kCycle_ms);
 }
 
-void a_slope_out_of_range(void**) {
+TEST(a_slope_out_of_range) {
   Machine m;
   m.stops_by([](CanFrame& frame) {
     frame.data[2] = 0xF0;  // 230 degrees.
@@ -79,7 +79,7 @@ void a_slope_out_of_range(void**) {
   });
 }
 
-void a_slope_that_jumps(void**) {
+TEST(a_slope_that_jumps) {
   Machine m;
   m.stops_by([](CanFrame& frame) {
     frame.data[2] = static_cast<std::uint8_t>(frame.data[2] + 5);  // 10 degrees.
@@ -87,7 +87,7 @@ void a_slope_that_jumps(void**) {
   });
 }
 
-void a_slope_that_stands_still(void**) {
+TEST(a_slope_that_stands_still) {
   Machine m;
   m.dig();
   auto first = std::make_shared<std::optional<dbc::Payload>>();
@@ -100,7 +100,7 @@ void a_slope_that_stands_still(void**) {
 }
 
 /// Angles of 20 ms ago made this machine ring at 3 Hz until its strokes were taken for wrong.
-void a_machine_that_would_ring(void**) {
+TEST(a_machine_that_would_ring) {
   runs::DigScenario scenario;
   scenario.errors = "all";
   scenario.scenario.bus = "slopes";
@@ -115,7 +115,7 @@ void a_machine_that_would_ring(void**) {
   assert_in_range(static_cast<int>(1e3 * summary.max_error_true_m), 5, 70);
 }
 
-void two_sensors_of_one_address(void**) {
+TEST(two_sensors_of_one_address) {
   Machine m;
   m.dig();
   CanFrame other;
@@ -131,17 +131,4 @@ void two_sensors_of_one_address(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_sensor_that_is_lost),
-      cmocka_unit_test(a_machine_that_would_ring),
-      cmocka_unit_test(a_sensor_that_says_error_or_nothing),
-      cmocka_unit_test(a_sensor_in_doubt),
-      cmocka_unit_test(a_sensor_whose_filter_is_late),
-      cmocka_unit_test(a_slope_out_of_range),
-      cmocka_unit_test(a_slope_that_jumps),
-      cmocka_unit_test(a_slope_that_stands_still),
-      cmocka_unit_test(two_sensors_of_one_address),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

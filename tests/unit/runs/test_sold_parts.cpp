@@ -48,19 +48,19 @@ struct Machine : test::MachineOnBus {
 
 bool lost(CanFrame&) { return false; }
 
-void an_encoder_that_is_lost(void**) {
+TEST(an_encoder_that_is_lost) {
   Machine m("encoders");
   m.stops_by(kArmEncoder, lost, kSensor_ms);
   assert_int_equal(m.status().fault, Fault::kStrokeMissing);
 }
 
-void a_heartbeat_that_is_lost(void**) {
+TEST(a_heartbeat_that_is_lost) {
   Machine m("encoders");
   m.stops_by(kArmHeartbeat, lost, kHeartbeat_ms);
   assert_int_equal(m.status().fault, Fault::kStrokeMissing);
 }
 
-void a_node_that_falls_asleep(void**) {
+TEST(a_node_that_falls_asleep) {
   Machine m("encoders");
   m.stops_by(
       kArmHeartbeat,
@@ -72,7 +72,7 @@ void a_node_that_falls_asleep(void**) {
 }
 
 /// It is started again; the operator gives enable anew.
-void a_node_that_reboots(void**) {
+TEST(a_node_that_reboots) {
   Machine m("encoders");
   m.dig();
   int starts = 0;
@@ -92,7 +92,7 @@ void a_node_that_reboots(void**) {
   assert_true(m.rig.plant.spools_enabled());
 }
 
-void an_encoder_that_is_wrong(void**) {
+TEST(an_encoder_that_is_wrong) {
   for (const std::uint8_t top : {std::uint8_t{0xFF}, std::uint8_t{0x10}}) {
     Machine m("encoders");
     m.stops_by(
@@ -113,7 +113,7 @@ void an_encoder_that_is_wrong(void**) {
       kSensor_ms);
 }
 
-void an_encoder_that_sticks(void**) {
+TEST(an_encoder_that_sticks) {
   Machine m("encoders");
   m.dig();
   auto first = std::make_shared<std::optional<dbc::Payload>>();
@@ -126,7 +126,7 @@ void an_encoder_that_sticks(void**) {
 }
 
 /// It goes on with its values all the same.
-void an_encoder_with_an_emergency(void**) {
+TEST(an_encoder_with_an_emergency) {
   Machine m("encoders");
   m.dig();
   m.rig.plant.faults().sold.emergency_node = 2;
@@ -143,14 +143,14 @@ void an_encoder_with_an_emergency(void**) {
   assert_int_equal(m.status().mode, EcuMode::kActive);
 }
 
-void an_inclinometer_that_is_lost(void**) {
+TEST(an_inclinometer_that_is_lost) {
   Machine m("inclinometers");
   m.stops_by(0x192, lost, kSensor_ms);
   Machine heart("inclinometers");
   heart.stops_by(0x714, lost, kHeartbeat_ms);
 }
 
-void valves_without_controller(void**) {
+TEST(valves_without_controller) {
   for (const char* bus : {"aux_valves", "valve_driver"}) {
     Machine m(bus);
     m.dig();
@@ -160,7 +160,7 @@ void valves_without_controller(void**) {
 
 /// A command that is lost, with a flow or state that there is none of, or whose counter stands
 /// still.
-void a_command_that_is_none(void**) {
+TEST(a_command_that_is_none) {
   const struct {
     const char* bus;
     std::uint32_t id;
@@ -186,7 +186,7 @@ void a_command_that_is_none(void**) {
   static_cast<void>(m.machine_neutral_after(kValve_ms));
 }
 
-void a_second_sender_of_a_command(void**) {
+TEST(a_second_sender_of_a_command) {
   Machine m("aux_valves");
   m.dig();
   CanFrame other;
@@ -197,7 +197,7 @@ void a_second_sender_of_a_command(void**) {
   assert_int_equal(m.status().fault, Fault::kSecondController);
 }
 
-void a_retrofit_loses_a_part(void**) {
+TEST(a_retrofit_loses_a_part) {
   const struct {
     std::uint32_t id;
     int most_ms;
@@ -214,7 +214,7 @@ void a_retrofit_loses_a_part(void**) {
   m.misses_a_pressure_within(kPressure_ms);
 }
 
-void a_pressure_transmitter_in_doubt(void**) {
+TEST(a_pressure_transmitter_in_doubt) {
   Machine m("retrofit");
   m.dig();
   m.change(0x1A3, [](CanFrame& frame) {
@@ -225,7 +225,7 @@ void a_pressure_transmitter_in_doubt(void**) {
 }
 
 /// The plugs of both buses are swapped, or the second is off.
-void a_frame_on_the_other_bus_is_none(void**) {
+TEST(a_frame_on_the_other_bus_is_none) {
   for (const bool off : {true, false}) {
     Machine m("retrofit");
     m.dig();
@@ -241,22 +241,4 @@ void a_frame_on_the_other_bus_is_none(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(an_encoder_that_is_lost),
-      cmocka_unit_test(an_encoder_with_an_emergency),
-      cmocka_unit_test(a_heartbeat_that_is_lost),
-      cmocka_unit_test(a_node_that_falls_asleep),
-      cmocka_unit_test(a_node_that_reboots),
-      cmocka_unit_test(an_encoder_that_is_wrong),
-      cmocka_unit_test(an_encoder_that_sticks),
-      cmocka_unit_test(an_inclinometer_that_is_lost),
-      cmocka_unit_test(valves_without_controller),
-      cmocka_unit_test(a_command_that_is_none),
-      cmocka_unit_test(a_second_sender_of_a_command),
-      cmocka_unit_test(a_retrofit_loses_a_part),
-      cmocka_unit_test(a_pressure_transmitter_in_doubt),
-      cmocka_unit_test(a_frame_on_the_other_bus_is_none),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -55,14 +55,14 @@ struct Rig {
   std::array<CanFrame, 8> taken;
 };
 
-void silent_it_is_at_nothing(void**) {
+TEST(silent_it_is_at_nothing) {
   Rig rig;
   assert_int_equal(rig.take(0), 0);
   assert_false(rig.listener.step().has_value());
   assert_false(rig.listener.is_done());
 }
 
-void a_step_is_heard_and_passes_through(void**) {
+TEST(a_step_is_heard_and_passes_through) {
   Rig rig;
   rig.say(kNumber, 3, Kind::kLift);
   assert_int_equal(rig.take(0), 1);
@@ -81,7 +81,7 @@ void a_step_is_heard_and_passes_through(void**) {
   assert_true(rig.listener.state() == CanPortState::kActive);
 }
 
-void the_way_to_a_step_is_none(void**) {
+TEST(the_way_to_a_step_is_none) {
   Rig rig;
   for (const Kind kind : {Kind::kNone, Kind::kApproach, Kind::kDone}) {
     rig.say(kNumber, 0, kind);
@@ -91,7 +91,7 @@ void the_way_to_a_step_is_none(void**) {
   }
 }
 
-void another_task_is_not_ours(void**) {
+TEST(another_task_is_not_ours) {
   Rig rig;
   rig.say(kNumber + 1, 0, Kind::kDig);
   static_cast<void>(rig.take(0));
@@ -101,7 +101,7 @@ void another_task_is_not_ours(void**) {
   assert_false(rig.listener.is_done());
 }
 
-void what_is_not_said_is_not_heard(void**) {
+TEST(what_is_not_said_is_not_heard) {
   Rig rig;
   TaskStatus status;
   status.step_kind = {Kind::kDig, RawState::kValid};
@@ -120,7 +120,7 @@ void what_is_not_said_is_not_heard(void**) {
   assert_false(rig.listener.step().has_value());
 }
 
-void a_frame_of_another_form_is_none(void**) {
+TEST(a_frame_of_another_form_is_none) {
   Rig rig;
   TaskStatus status;
   status.task_number = {kNumber, RawState::kValid};
@@ -137,7 +137,7 @@ void a_frame_of_another_form_is_none(void**) {
   assert_false(rig.listener.step().has_value());
 }
 
-void what_was_said_fades(void**) {
+TEST(what_was_said_fades) {
   Rig rig;
   rig.say(kNumber, 1, Kind::kDump);
   static_cast<void>(rig.take(kSecondUs));
@@ -149,15 +149,4 @@ void what_was_said_fades(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(silent_it_is_at_nothing),
-      cmocka_unit_test(a_step_is_heard_and_passes_through),
-      cmocka_unit_test(the_way_to_a_step_is_none),
-      cmocka_unit_test(another_task_is_not_ours),
-      cmocka_unit_test(what_is_not_said_is_not_heard),
-      cmocka_unit_test(a_frame_of_another_form_is_none),
-      cmocka_unit_test(what_was_said_fades),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -26,7 +26,7 @@ std::string refusal(const std::string& text) {
   return {};
 }
 
-void texts_are_read(void**) {
+TEST(texts_are_read) {
   const ToldFault drift = told_fault("boom-stroke:drift=-0.01@2.5");
   assert_string_equal(drift.name.c_str(), "boom-stroke:drift");
   assert_true(drift.value == -0.01);
@@ -34,7 +34,7 @@ void texts_are_read(void**) {
   assert_true(told_fault("swing-angle:frozen@0").value == 0.0);
 }
 
-void wrong_texts_are_refused(void**) {
+TEST(wrong_texts_are_refused) {
   const struct {
     const char* text;
     const char* says;
@@ -53,7 +53,7 @@ void wrong_texts_are_refused(void**) {
 }
 
 /// Each comes at its time, whatever the order in which they were told, and its mark says which.
-void faults_come_in_time(void**) {
+TEST(faults_come_in_time) {
   LoopbackBus bus;
   LoopbackPort& machine = bus.attach();
   LoopbackPort& other = bus.attach();
@@ -111,16 +111,11 @@ void each_acts(const PlantFaultTable<Faults>& table) {
   }
 }
 
-void every_name_acts(void**) {
+TEST(every_name_acts) {
   each_acts(excavator_plant_faults());
   each_acts(dozer_plant_faults());
 }
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(texts_are_read), cmocka_unit_test(wrong_texts_are_refused),
-      cmocka_unit_test(faults_come_in_time), cmocka_unit_test(every_name_acts)};
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

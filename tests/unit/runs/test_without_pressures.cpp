@@ -27,23 +27,17 @@ runs::DigSummary dug_without_pressures(double bulk_modulus_gpa) {
 }
 
 /// With the servo of a machine that has pressures: 131 and 45 mm.
-void soft_oil_does_not_ring(void**) {
+TEST(soft_oil_does_not_ring) {
   const runs::DigSummary soft = dug_without_pressures(0.7);
   assert_in_range(static_cast<int>(1e4 * soft.max_error_true_m), 50, 450);
   assert_in_range(static_cast<int>(1e4 * soft.ringing_rms_m), 1, 120);
 }
 
-void oil_as_designed_is_followed_as_well(void**) {
+TEST(oil_as_designed_is_followed_as_well) {
   const runs::DigSummary designed = dug_without_pressures(1.4);
   assert_in_range(static_cast<int>(1e4 * designed.max_error_true_m), 30, 180);
 }
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(soft_oil_does_not_ring),
-      cmocka_unit_test(oil_as_designed_is_followed_as_well),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

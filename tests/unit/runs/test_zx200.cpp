@@ -30,7 +30,7 @@ int most_lever(const CanFrame& frame) {
   return *std::max_element(frame.data.begin(), frame.data.end());
 }
 
-void nothing_moves_before_the_handshake(void**) {
+TEST(nothing_moves_before_the_handshake) {
   Machine m;
   int levers = 0;
   bool asked = false;
@@ -58,7 +58,7 @@ void nothing_moves_before_the_handshake(void**) {
   m.dig();
 }
 
-void a_locked_machine_does_not_move(void**) {
+TEST(a_locked_machine_does_not_move) {
   Machine m;
   m.faults().locked = true;
   while (m.now < 2 * kSecondUs && m.status().mode != EcuMode::kFault) {
@@ -69,7 +69,7 @@ void a_locked_machine_does_not_move(void**) {
   assert_int_equal(m.status().fault, Fault::kSpoolStuck);
 }
 
-void lock(void**) {
+TEST(lock) {
   Machine m;
   m.dig();
   m.faults().locked = true;
@@ -79,7 +79,7 @@ void lock(void**) {
 }
 
 /// Of a machine whose pilot pressures are not looked at, its state alone says so.
-void lock_by_its_state(void**) {
+TEST(lock_by_its_state) {
   Machine m;
   m.dig();
   m.change(zx200::MachineState::kId, [](CanFrame& frame) {
@@ -90,7 +90,7 @@ void lock_by_its_state(void**) {
   assert_int_equal(m.status().fault, Fault::kValveNotFollowing);
 }
 
-void a_short_lock_is_not_undone(void**) {
+TEST(a_short_lock_is_not_undone) {
   Machine m;
   m.dig();
   m.faults().locked = true;
@@ -109,7 +109,7 @@ void a_short_lock_is_not_undone(void**) {
   assert_true(m.rig.plant.spools_enabled());
 }
 
-void emergency_stop(void**) {
+TEST(emergency_stop) {
   Machine m;
   m.dig();
   m.faults().stopped = true;
@@ -117,7 +117,7 @@ void emergency_stop(void**) {
   m.controller_stops_within(kEcho_ms);
 }
 
-void lost_gateway(void**) {
+TEST(lost_gateway) {
   Machine m;
   m.dig();
   m.faults().lost = true;
@@ -127,13 +127,13 @@ void lost_gateway(void**) {
   static_cast<void>(m.machine_neutral_after(kCommand_ms));
 }
 
-void lost_controller(void**) {
+TEST(lost_controller) {
   Machine m;
   m.dig();
   static_cast<void>(m.machine_neutral_after(kCommand_ms + 2 * kCycle_ms, true));
 }
 
-void the_machines_counter_stands_still(void**) {
+TEST(the_machines_counter_stands_still) {
   Machine m;
   m.dig();
   m.faults().frozen = true;
@@ -141,7 +141,7 @@ void the_machines_counter_stands_still(void**) {
   static_cast<void>(m.machine_neutral_after(2 * kCycle_ms));
 }
 
-void our_counter_stands_still(void**) {
+TEST(our_counter_stands_still) {
   Machine m;
   m.dig();
   m.change(zx200::MachineSettingCmd::kId, [](CanFrame& frame) {
@@ -152,7 +152,7 @@ void our_counter_stands_still(void**) {
   m.controller_stops_within(kEcho_ms);
 }
 
-void an_angle_that_jumps_or_sticks(void**) {
+TEST(an_angle_that_jumps_or_sticks) {
   {
     Machine m;
     m.dig();
@@ -165,7 +165,7 @@ void an_angle_that_jumps_or_sticks(void**) {
   m.controller_stops_within(4000);
 }
 
-void a_pilot_that_does_not_follow(void**) {
+TEST(a_pilot_that_does_not_follow) {
   Machine m;
   m.dig();
   m.change(zx200::PilotPressure1::kId, [](CanFrame& frame) {
@@ -190,7 +190,7 @@ void a_pilot_that_does_not_follow(void**) {
   assert_false(sent);
 }
 
-void another_controller(void**) {
+TEST(another_controller) {
   Machine m;
   m.dig();
   CanFrame other;
@@ -204,7 +204,7 @@ void another_controller(void**) {
 }  // namespace
 
 /// Where its own pilot puts them, and both ends know it.
-void nobody_commands_its_pumps(void**) {
+TEST(nobody_commands_its_pumps) {
   const machines::SimulatedExcavator on_it = test::on_bus("zx200");
   const machines::SimulatedExcavator on_ours = test::on_bus("encoders");
   for (unsigned j = 0; j < kPumpCount; ++j) {
@@ -216,22 +216,4 @@ void nobody_commands_its_pumps(void**) {
   assert_near(on_ours.profile.demand_swash.most_ratio, 1.0, 0.0);
 }
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(nobody_commands_its_pumps),
-      cmocka_unit_test(nothing_moves_before_the_handshake),
-      cmocka_unit_test(a_locked_machine_does_not_move),
-      cmocka_unit_test(lock),
-      cmocka_unit_test(lock_by_its_state),
-      cmocka_unit_test(a_short_lock_is_not_undone),
-      cmocka_unit_test(emergency_stop),
-      cmocka_unit_test(lost_gateway),
-      cmocka_unit_test(lost_controller),
-      cmocka_unit_test(the_machines_counter_stands_still),
-      cmocka_unit_test(our_counter_stands_still),
-      cmocka_unit_test(an_angle_that_jumps_or_sticks),
-      cmocka_unit_test(a_pilot_that_does_not_follow),
-      cmocka_unit_test(another_controller),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

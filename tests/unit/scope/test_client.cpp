@@ -88,7 +88,7 @@ void assert_next(Rig& rig, const char* expected) {
   assert_string_equal(rig.next().c_str(), expected);
 }
 
-void setup_is_first_and_once(void**) {
+TEST(setup_is_first_and_once) {
   Rig rig;
   rig.script.blocks = {"a\n"};
   rig.past_setup();
@@ -96,7 +96,7 @@ void setup_is_first_and_once(void**) {
   assert_next(rig, "-");
 }
 
-void state_comes_before_frames_and_when_it_changes(void**) {
+TEST(state_comes_before_frames_and_when_it_changes) {
   Rig rig;
   rig.script.revision = 1;
   rig.script.blocks = {"a\n"};
@@ -109,7 +109,7 @@ void state_comes_before_frames_and_when_it_changes(void**) {
   assert_next(rig, "-");
 }
 
-void lost_frames_are_told_when_their_count_changes(void**) {
+TEST(lost_frames_are_told_when_their_count_changes) {
   Rig rig;
   rig.past_setup();
   rig.script.lost = 12;
@@ -129,7 +129,7 @@ void assert_refused(Rig& rig, const char* why) {
   }
 }
 
-void a_wish_is_handed_on_and_not_answered(void**) {
+TEST(a_wish_is_handed_on_and_not_answered) {
   Rig rig;
   rig.past_setup();
   assert_int_equal(rig.say(R"({"do":"run"})"), Received::kTaken);
@@ -137,7 +137,7 @@ void a_wish_is_handed_on_and_not_answered(void**) {
   assert_next(rig, "-");
 }
 
-void what_is_refused_is_answered(void**) {
+TEST(what_is_refused_is_answered) {
   Rig rig;
   rig.past_setup();
   for (const char* text :
@@ -158,7 +158,7 @@ void what_is_refused_is_answered(void**) {
   assert_int_equal(rig.script.wishes.size(), 3);
 }
 
-void pieces_become_one_message(void**) {
+TEST(pieces_become_one_message) {
   Rig rig;
   assert_int_equal(rig.client.receive({R"({"do":)", false, false}), Received::kTaken);
   assert_int_equal(rig.script.wishes.size(), 0);
@@ -168,7 +168,7 @@ void pieces_become_one_message(void**) {
   assert_int_equal(rig.script.wishes.size(), 2);
 }
 
-void a_message_may_have_4096_bytes(void**) {
+TEST(a_message_may_have_4096_bytes) {
   Rig rig;
   const std::string wish = R"({"do":"run"})";
   const std::string longest = wish + std::string(Client::kMessageMostBytes - wish.size(), ' ');
@@ -179,12 +179,12 @@ void a_message_may_have_4096_bytes(void**) {
   assert_int_equal(rig.client.receive({" ", false, true}), Received::kTooLong);
 }
 
-void binary_is_not_taken(void**) {
+TEST(binary_is_not_taken) {
   Rig rig;
   assert_int_equal(rig.client.receive({"x", true, true}), Received::kBinary);
 }
 
-void who_says_too_much_has_to_wait(void**) {
+TEST(who_says_too_much_has_to_wait) {
   Rig rig;
   for (int i = 0; i < Client::kBudgetMost; ++i) {
     assert_true(rig.client.may_speak());
@@ -206,7 +206,7 @@ void who_says_too_much_has_to_wait(void**) {
   assert_false(rig.client.may_speak());
 }
 
-void answers_that_wait_are_few(void**) {
+TEST(answers_that_wait_are_few) {
   Rig rig;
   rig.past_setup();
   for (std::size_t i = 0; i < Client::kAnswersMost; ++i) {
@@ -220,18 +220,4 @@ void answers_that_wait_are_few(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(setup_is_first_and_once),
-      cmocka_unit_test(state_comes_before_frames_and_when_it_changes),
-      cmocka_unit_test(lost_frames_are_told_when_their_count_changes),
-      cmocka_unit_test(a_wish_is_handed_on_and_not_answered),
-      cmocka_unit_test(what_is_refused_is_answered),
-      cmocka_unit_test(pieces_become_one_message),
-      cmocka_unit_test(a_message_may_have_4096_bytes),
-      cmocka_unit_test(binary_is_not_taken),
-      cmocka_unit_test(who_says_too_much_has_to_wait),
-      cmocka_unit_test(answers_that_wait_are_few),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

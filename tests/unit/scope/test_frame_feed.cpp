@@ -36,7 +36,7 @@ void feed_blocks(FrameFeed& feed, int blocks, int frames_each) {
   }
 }
 
-void lines_are_candump(void**) {
+TEST(lines_are_candump) {
   FrameFeed feed;
   FrameReader reader(feed);
   feed.append(frame(0xA5), 1234567890123456, "vcan0");
@@ -56,7 +56,7 @@ void lines_are_candump(void**) {
                       "(0000000000.000000) can1 07F#02\n");
 }
 
-void nothing_comes_before_the_flush(void**) {
+TEST(nothing_comes_before_the_flush) {
   FrameFeed feed;
   FrameReader reader(feed);
   feed.append(frame(), 0, "can0");
@@ -68,7 +68,7 @@ void nothing_comes_before_the_flush(void**) {
   assert_null(reader.next().get());
 }
 
-void who_comes_late_sees_what_is_kept(void**) {
+TEST(who_comes_late_sees_what_is_kept) {
   FrameFeed feed(kBounds);
   feed_blocks(feed, 3, 5);
   FrameReader early(feed);
@@ -87,7 +87,7 @@ void who_comes_late_sees_what_is_kept(void**) {
   assert_int_equal(late.lost(), 0);
 }
 
-void who_comes_and_is_too_slow_loses_what_goes(void**) {
+TEST(who_comes_and_is_too_slow_loses_what_goes) {
   FrameFeed feed(kBounds);
   feed_blocks(feed, static_cast<int>(kKept), 1);
   FrameReader late(feed);
@@ -97,7 +97,7 @@ void who_comes_and_is_too_slow_loses_what_goes(void**) {
   assert_int_equal(late.lost(), kKept);
 }
 
-void what_is_kept_is_bounded_in_bytes_too(void**) {
+TEST(what_is_kept_is_bounded_in_bytes_too) {
   FrameFeed feed(FrameFeed::Bounds{kBlocks, 1000, 10 * 38});
   feed_blocks(feed, 50, 1);
   FrameReader late(feed);
@@ -110,7 +110,7 @@ void what_is_kept_is_bounded_in_bytes_too(void**) {
   assert_in_range(bytes, 1, 10 * 38);
 }
 
-void a_full_ring_loses_nothing(void**) {
+TEST(a_full_ring_loses_nothing) {
   FrameFeed feed(kBounds);
   FrameReader reader(feed);
   feed_blocks(feed, kBlocks, 3);
@@ -120,7 +120,7 @@ void a_full_ring_loses_nothing(void**) {
   assert_int_equal(reader.lost(), 0);
 }
 
-void an_overtaken_reader_gets_the_newest_and_the_count(void**) {
+TEST(an_overtaken_reader_gets_the_newest_and_the_count) {
   FrameFeed feed(kBounds);
   FrameReader slow(feed);
   FrameReader quick(feed);
@@ -138,7 +138,7 @@ void an_overtaken_reader_gets_the_newest_and_the_count(void**) {
   assert_int_equal(slow.lost(), 3 * kBlocks + 2 * (2 * kBlocks - 1));
 }
 
-void a_large_block_goes_by_itself(void**) {
+TEST(a_large_block_goes_by_itself) {
   FrameFeed feed;
   FrameReader reader(feed);
   for (std::size_t bytes = 0; bytes < FrameFeed::kLargestBlockBytes; bytes += 20) {
@@ -150,7 +150,7 @@ void a_large_block_goes_by_itself(void**) {
   assert_true(block->text.size() < FrameFeed::kLargestBlockBytes + 100);
 }
 
-void the_listener_hears_of_each_flush_and_wake(void**) {
+TEST(the_listener_hears_of_each_flush_and_wake) {
   FrameFeed feed;
   int calls = 0;
   feed.on_change([&calls] { ++calls; });
@@ -163,7 +163,7 @@ void the_listener_hears_of_each_flush_and_wake(void**) {
 }
 
 /// What is read and what is missed is all there was, whatever the threads' pace.
-void every_frame_is_read_or_counted(void**) {
+TEST(every_frame_is_read_or_counted) {
   FrameFeed feed(FrameFeed::Bounds{8, 8, 1 << 20});
   FrameReader reader(feed);
   constexpr int kRounds = 20000;
@@ -185,18 +185,4 @@ void every_frame_is_read_or_counted(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(lines_are_candump),
-      cmocka_unit_test(nothing_comes_before_the_flush),
-      cmocka_unit_test(who_comes_late_sees_what_is_kept),
-      cmocka_unit_test(who_comes_and_is_too_slow_loses_what_goes),
-      cmocka_unit_test(what_is_kept_is_bounded_in_bytes_too),
-      cmocka_unit_test(a_full_ring_loses_nothing),
-      cmocka_unit_test(an_overtaken_reader_gets_the_newest_and_the_count),
-      cmocka_unit_test(a_large_block_goes_by_itself),
-      cmocka_unit_test(the_listener_hears_of_each_flush_and_wake),
-      cmocka_unit_test(every_frame_is_read_or_counted),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -10,19 +10,19 @@ namespace {
 using graben::scope::is_own_host;
 using graben::scope::is_own_origin;
 
-void addresses_and_localhost_are_own(void**) {
+TEST(addresses_and_localhost_are_own) {
   for (const char* host : {"127.0.0.1", "127.0.0.1:8080", "localhost:8080", "LocalHost",
                            "10.1.2.3:1", "[::1]", "[::1]:8080", "[fe80::1]:65535"}) {
     assert_true(is_own_host(host, "127.0.0.1"));
   }
 }
 
-void the_name_that_was_told_is_own(void**) {
+TEST(the_name_that_was_told_is_own) {
   assert_true(is_own_host("Excavator.local:8080", "excavator.local"));
   assert_false(is_own_host("excavator.local:8080", "127.0.0.1"));
 }
 
-void foreign_names_are_not(void**) {
+TEST(foreign_names_are_not) {
   for (const char* host : {"evil.example",
                            "evil.example:8080",
                            "localhost.evil.example",
@@ -52,7 +52,7 @@ void foreign_names_are_not(void**) {
   assert_false(is_own_host(std::string_view("127.0.0.1\0.evil", 15), "127.0.0.1"));
 }
 
-void own_pages_have_the_same_host_and_port(void**) {
+TEST(own_pages_have_the_same_host_and_port) {
   assert_true(is_own_origin("http://127.0.0.1:8080", "127.0.0.1:8080"));
   assert_true(is_own_origin("http://LOCALHOST:8080", "localhost:8080"));
   for (const char* origin :
@@ -66,12 +66,4 @@ void own_pages_have_the_same_host_and_port(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(addresses_and_localhost_are_own),
-      cmocka_unit_test(the_name_that_was_told_is_own),
-      cmocka_unit_test(foreign_names_are_not),
-      cmocka_unit_test(own_pages_have_the_same_host_and_port),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

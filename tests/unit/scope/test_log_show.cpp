@@ -24,7 +24,7 @@ LogShow show_of(const std::filesystem::path& file) {
   return LogShow(file, kBitrate, {{"machines", "theirs"}});
 }
 
-void the_file_is_what_pages_get(void**) {
+TEST(the_file_is_what_pages_get) {
   const TemporaryFile file("(0000000001.000000) can0 123#\n");
   const LogShow show = show_of(file.path());
   assert_int_equal(show.log()->bytes, 30);
@@ -33,7 +33,7 @@ void the_file_is_what_pages_get(void**) {
   assert_true(chunk.empty());
 }
 
-void setup_says_what_it_is(void**) {
+TEST(setup_says_what_it_is) {
   const TemporaryFile file("x\n");
   const LogShow show = show_of(file.path());
   const nlohmann::json setup = nlohmann::json::parse(show.setup());
@@ -57,7 +57,7 @@ void assert_refused(const std::filesystem::path& file, const char* why) {
   assert_string_equal(error.c_str(), (file.string() + ": " + why).c_str());
 }
 
-void a_packed_log_is_unpacked(void**) {
+TEST(a_packed_log_is_unpacked) {
   const std::string text(100000, '\n');
   const TemporaryFile file("");
   gzFile packed = gzopen(file.path().c_str(), "wb");
@@ -74,7 +74,7 @@ void a_packed_log_is_unpacked(void**) {
   assert_refused(file.path(), "is cut off or damaged (gzip)");
 }
 
-void what_is_no_log_is_refused(void**) {
+TEST(what_is_no_log_is_refused) {
   const TemporaryFile empty("");
   assert_refused("no_such_file.log",
                  (std::string("there is no such file; wanted: ") + machines::kWantedLog).c_str());
@@ -87,12 +87,4 @@ void what_is_no_log_is_refused(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_file_is_what_pages_get),
-      cmocka_unit_test(setup_says_what_it_is),
-      cmocka_unit_test(a_packed_log_is_unpacked),
-      cmocka_unit_test(what_is_no_log_is_refused),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

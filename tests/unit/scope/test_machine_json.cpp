@@ -30,7 +30,7 @@ const json& machine_named(const json& setup, const std::string& name) {
   throw std::runtime_error("no machine " + name);
 }
 
-void every_shipped_machine_is_there(void**) {
+TEST(every_shipped_machine_is_there) {
   const json setup = reports::shared_setup({});
   assert_int_equal(setup["machines"].size(), 8);
   for (const char* name :
@@ -46,7 +46,7 @@ void every_shipped_machine_is_there(void**) {
                    machines::load_simulated_dozer(machines::find_profile("dozer_9t")).hash);
 }
 
-void geometry_is_the_profile_s(void**) {
+TEST(geometry_is_the_profile_s) {
   const machines::SimulatedExcavator machine = excavator("excavator_12t");
   const ExcavatorGeometry& geometry = machine.profile.geometry;
   const json told = reports::machine_json(machine, {});
@@ -79,7 +79,7 @@ void geometry_is_the_profile_s(void**) {
 }
 
 /// Closed, in short steps, and every point of it on the rectangle, seen from the boom foot.
-void the_path_is_the_task_s(void**) {
+TEST(the_path_is_the_task_s) {
   for (const char* name :
        {"excavator_12t", "excavator_22t", "excavator_22t_ls", "excavator_12t_nfc"}) {
     const machines::SimulatedExcavator machine = excavator(name);
@@ -107,7 +107,7 @@ void the_path_is_the_task_s(void**) {
   }
 }
 
-void the_bucket_is_as_wide_as_the_profile_says(void**) {
+TEST(the_bucket_is_as_wide_as_the_profile_says) {
   machines::SimulatedExcavator machine = excavator("excavator_22t");
   const json told = reports::machine_json(machine, {});
   assert_near(told["bucket_width_m"].get<double>(), 1.2, 0.0);
@@ -116,14 +116,14 @@ void the_bucket_is_as_wide_as_the_profile_says(void**) {
   assert_false(reports::machine_json(machine, {}).contains("bucket_width_m"));
 }
 
-void ground_that_is_cut_lies_at_its_level(void**) {
+TEST(ground_that_is_cut_lies_at_its_level) {
   machines::Scenario scenario;
   scenario.ground = "loam";
   machines::SimulatedExcavator machine = machines::arranged(excavator("excavator_22t"), scenario);
   assert_near(reports::machine_json(machine, {})["dig"]["ground_z_m"].get<double>(), 0.0, 0.0);
 }
 
-void the_field_is_the_controller_s(void**) {
+TEST(the_field_is_the_controller_s) {
   const machines::SimulatedExcavator machine = excavator("excavator_22t");
   const Eigen::Vector2d foot_m = machine.profile.geometry.boom_foot_m;
   const DigField field(machine.profile, ExcavatorKinematics(machine.profile.geometry));
@@ -155,7 +155,7 @@ DriveVector drives(const json& told) {
 }
 
 /// Each step from where the one before ends; its drives put the teeth where it says.
-void steps_join_and_their_drives_fit(void**) {
+TEST(steps_join_and_their_drives_fit) {
   const machines::SimulatedExcavator machine = excavator("excavator_12t");
   const SwingKinematics kinematics(machine.profile.geometry);
   const machines::TaskFile task =
@@ -183,7 +183,7 @@ void steps_join_and_their_drives_fit(void**) {
   }
 }
 
-void fences_have_words_and_the_design_is_the_last(void**) {
+TEST(fences_have_words_and_the_design_is_the_last) {
   const machines::SimulatedExcavator machine = excavator("excavator_12t");
   const json told = reports::task_json(
       machines::load_task(machines::find_task("truck_by_steps"), machine.profile), machine.profile);
@@ -202,7 +202,7 @@ void fences_have_words_and_the_design_is_the_last(void**) {
   assert_int_equal(flatten["fences"].size(), 0);
 }
 
-void the_dozer_is_the_profile_s(void**) {
+TEST(the_dozer_is_the_profile_s) {
   const machines::SimulatedDozer machine =
       machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   const json told = reports::machine_json(machine);
@@ -224,7 +224,7 @@ void the_dozer_is_the_profile_s(void**) {
   assert_near(told["length_m"].get<double>(), machine.experiment.length_m, 0.0);
 }
 
-void the_design_rises_in_x_and_is_the_grade(void**) {
+TEST(the_design_rises_in_x_and_is_the_grade) {
   const machines::SimulatedDozer machine =
       machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
   const GradeProfile grade(machine.profile.grade);
@@ -241,7 +241,7 @@ void the_design_rises_in_x_and_is_the_grade(void**) {
   assert_near(lowest_m, -0.35, 1e-3);
 }
 
-void every_number_has_words_of_its_own(void**) {
+TEST(every_number_has_words_of_its_own) {
   const json words = reports::text_json();
   std::set<std::string> faults;
   for (int i = 0; i < kFaultCount; ++i) {
@@ -266,7 +266,7 @@ std::vector<std::string> tasks_of(const json& setup, const std::string& machine)
   return names;
 }
 
-void tasks_are_numbered_as_told(void**) {
+TEST(tasks_are_numbered_as_told) {
   const std::vector<std::string> shipped = {"bench",  "flatten",        "level",        "slope",
                                             "trench", "truck_by_steps", "truck_loading"};
   assert_true(tasks_of(reports::shared_setup({}), "excavator_12t") == shipped);
@@ -292,7 +292,7 @@ void assert_error(const reports::SetupOptions& options, const std::string& words
   }
 }
 
-void what_is_wrong_is_said(void**) {
+TEST(what_is_wrong_is_said) {
   assert_error({"no_such_profile", {}}, "no_such_profile");
   assert_error({std::nullopt, {"no_such_task"}}, "no_such_task");
   assert_error({"dozer_9t", {"flatten"}}, "--task: fits no machine");
@@ -302,7 +302,7 @@ void what_is_wrong_is_said(void**) {
   assert_error({std::nullopt, {task.path().string()}}, "fits no machine\non excavator_12t: ");
 }
 
-void a_profile_that_is_told_comes_first_and_once(void**) {
+TEST(a_profile_that_is_told_comes_first_and_once) {
   std::ifstream shipped(machines::find_profile("excavator_12t"));
   std::stringstream text;
   text << shipped.rdbuf();
@@ -318,7 +318,7 @@ void a_profile_that_is_told_comes_first_and_once(void**) {
 }
 
 /// What of a bus tells links, and nothing else of it; one that is told comes first.
-void buses_tell_where_links_are(void**) {
+TEST(buses_tell_where_links_are) {
   const json buses = reports::shared_setup({std::nullopt, {}, "zx200"})["buses"];
   assert_true(buses.size() > 6);
   assert_true(buses[0]["name"] == "zx200");
@@ -337,23 +337,4 @@ void buses_tell_where_links_are(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(buses_tell_where_links_are),
-      cmocka_unit_test(every_shipped_machine_is_there),
-      cmocka_unit_test(geometry_is_the_profile_s),
-      cmocka_unit_test(the_path_is_the_task_s),
-      cmocka_unit_test(the_bucket_is_as_wide_as_the_profile_says),
-      cmocka_unit_test(ground_that_is_cut_lies_at_its_level),
-      cmocka_unit_test(the_field_is_the_controller_s),
-      cmocka_unit_test(steps_join_and_their_drives_fit),
-      cmocka_unit_test(fences_have_words_and_the_design_is_the_last),
-      cmocka_unit_test(the_dozer_is_the_profile_s),
-      cmocka_unit_test(the_design_rises_in_x_and_is_the_grade),
-      cmocka_unit_test(every_number_has_words_of_its_own),
-      cmocka_unit_test(tasks_are_numbered_as_told),
-      cmocka_unit_test(what_is_wrong_is_said),
-      cmocka_unit_test(a_profile_that_is_told_comes_first_and_once),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -31,7 +31,7 @@ std::string long_page() {
   return page;
 }
 
-void the_page_is_given_whole(void**) {
+TEST(the_page_is_given_whole) {
   const test::TemporaryFile file("x\n");
   scope::LogShow show(file.path(), 500000, json::object());
   const std::string page = long_page();
@@ -48,7 +48,7 @@ void the_page_is_given_whole(void**) {
   }
 }
 
-void the_operators_view_is_another_page(void**) {
+TEST(the_operators_view_is_another_page) {
   const test::TemporaryFile file("x\n");
   scope::LogShow show(file.path(), 500000, json::object());
   ServedShow served(show, "<!doctype html><title>scope</title>");
@@ -68,7 +68,7 @@ void the_operators_view_is_another_page(void**) {
   assert_begins(none, "HTTP/1.1 404");
 }
 
-void nothing_else_is_there(void**) {
+TEST(nothing_else_is_there) {
   ScriptRig rig(1);
   const std::string host = own_host(rig.port());
   for (const char* path : {"/x", "/log", "/frames", "/index.htm", "/operator/", "/operators",
@@ -82,7 +82,7 @@ void nothing_else_is_there(void**) {
   }
 }
 
-void foreign_names_get_nothing(void**) {
+TEST(foreign_names_get_nothing) {
   ScriptRig rig(1);
   const std::string port = ":" + std::to_string(rig.port());
   for (const std::string& host : {"evil.example" + port, std::string("localhost.evil.example")}) {
@@ -94,7 +94,7 @@ void foreign_names_get_nothing(void**) {
   assert_begins(get(rig.port(), "/", "localhost" + port), "HTTP/1.1 200");
 }
 
-void foreign_pages_get_no_frames(void**) {
+TEST(foreign_pages_get_no_frames) {
   ScriptRig rig(1);
   const std::string host = own_host(rig.port());
   for (const char* origin : {"http://evil.example", "null", "https://127.0.0.1", "file://"}) {
@@ -105,7 +105,7 @@ void foreign_pages_get_no_frames(void**) {
   assert_begins(WsClient(rig.port()).ask(test::ws_request(host)), "HTTP/1.1 101");
 }
 
-void the_handshake_has_to_be_ours(void**) {
+TEST(the_handshake_has_to_be_ours) {
   ScriptRig rig(1);
   const std::string host = own_host(rig.port());
   WsClient good(rig.port());
@@ -116,7 +116,7 @@ void the_handshake_has_to_be_ours(void**) {
   }
 }
 
-void the_thirty_third_page_is_told_so(void**) {
+TEST(the_thirty_third_page_is_told_so) {
   ScriptRig rig(1);
   std::vector<std::unique_ptr<WsClient>> clients;
   for (std::size_t i = 0; i < scope::kClientsMost; ++i) {
@@ -134,7 +134,7 @@ void the_thirty_third_page_is_told_so(void**) {
   assert_true(open);
 }
 
-void a_port_in_use_is_said(void**) {
+TEST(a_port_in_use_is_said) {
   ScriptRig rig(1);
   const test::TemporaryFile file("x\n");
   scope::LogShow show(file.path(), 500000, json::object());
@@ -151,7 +151,7 @@ void a_port_in_use_is_said(void**) {
   assert_has(error_of({"192.0.2.1", 0}), "192.0.2.1 port 0: Cannot assign requested address");
 }
 
-void other_addresses_are_known_as_such(void**) {
+TEST(other_addresses_are_known_as_such) {
   const test::TemporaryFile file("x\n");
   scope::LogShow show(file.path(), 500000, json::object());
   const scope::ScopeServer everywhere({"0.0.0.0", 0}, {"page"}, show);
@@ -164,17 +164,4 @@ void other_addresses_are_known_as_such(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(the_page_is_given_whole),
-      cmocka_unit_test(the_operators_view_is_another_page),
-      cmocka_unit_test(nothing_else_is_there),
-      cmocka_unit_test(foreign_names_get_nothing),
-      cmocka_unit_test(foreign_pages_get_no_frames),
-      cmocka_unit_test(the_handshake_has_to_be_ours),
-      cmocka_unit_test(the_thirty_third_page_is_told_so),
-      cmocka_unit_test(a_port_in_use_is_said),
-      cmocka_unit_test(other_addresses_are_known_as_such),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -86,7 +86,7 @@ std::size_t bytes_before_gap(const std::string& text) {
   return at;
 }
 
-void setup_and_state_come_first(void**) {
+TEST(setup_and_state_come_first) {
   ScriptRig rig(1);
   WsClient client(rig.port());
   assert_true(client.open());
@@ -99,7 +99,7 @@ void setup_and_state_come_first(void**) {
   assert_true(second && json::parse(second->content)["kind"] == "sim");
 }
 
-void two_pages_get_the_same_bytes(void**) {
+TEST(two_pages_get_the_same_bytes) {
   ScriptRig rig(20);
   WsClient first(rig.port());
   WsClient second(rig.port());
@@ -140,7 +140,7 @@ constexpr bool kMemoryIsCounted = true;
 
 /// 800 frames in 4 ms are 8 MB/s, eighty times a full bus: the one that does not read has its
 /// buffers full at once.
-void one_that_does_not_read_loses_frames_and_is_told(void**) {
+TEST(one_that_does_not_read_loses_frames_and_is_told) {
   constexpr long kServerMost_bytes = 8 * 1024 * 1024;
   ScriptRig rig(800);
   WsClient stuck(rig.port(), 4096);
@@ -169,7 +169,7 @@ void one_that_does_not_read_loses_frames_and_is_told(void**) {
   assert_true(bytes_before_gap(late.text) < 1000000);
 }
 
-void wishes_are_done_or_refused(void**) {
+TEST(wishes_are_done_or_refused) {
   ScriptRig rig(1);
   WsClient asks(rig.port());
   WsClient watches(rig.port());
@@ -190,7 +190,7 @@ void wishes_are_done_or_refused(void**) {
 }
 
 /// What it grows by is not shown; what it has lost can't be: that connection ends, others go on.
-void a_log_that_changes_while_it_is_shown(void**) {
+TEST(a_log_that_changes_while_it_is_shown) {
   const std::string text(4U << 20U, 'x');
   const test::TemporaryFile file(text);
   scope::LogShow show(file.path(), 500000, json::object());
@@ -217,7 +217,7 @@ void a_log_that_changes_while_it_is_shown(void**) {
                       "HTTP/1.1 404");
 }
 
-void a_log_is_a_file_and_takes_no_wishes(void**) {
+TEST(a_log_is_a_file_and_takes_no_wishes) {
   std::string text;
   for (int i = 0; i < 100000; ++i) {
     text += "(0000000001.000000) can0 18FF2080#" + std::to_string(10000000 + i) + "\n";
@@ -265,7 +265,7 @@ void assert_nothing_more(WsClient& client) {
   }
 }
 
-void what_is_no_message_closes_the_connection(void**) {
+TEST(what_is_no_message_closes_the_connection) {
   ScriptRig rig(1);
   const auto assert_closed = [&](int status, Opcode opcode, const std::string& content) {
     WsClient client(rig.port());
@@ -285,7 +285,7 @@ void what_is_no_message_closes_the_connection(void**) {
 }
 
 /// The operator's view gets all that others get, and whatever it says reaches nobody.
-void who_only_looks_is_not_heard(void**) {
+TEST(who_only_looks_is_not_heard) {
   ScriptRig rig(20);
   const std::string host = test::own_host(rig.port());
   const std::string request = test::ws_request(host, "", "/frames", "graben-look");
@@ -317,7 +317,7 @@ void who_only_looks_is_not_heard(void**) {
   assert_int_equal(rig.source().wishes(), 1);
 }
 
-void a_flood_is_read_slowly_and_costs_the_others_nothing(void**) {
+TEST(a_flood_is_read_slowly_and_costs_the_others_nothing) {
   ScriptRig rig(20);
   WsClient flood(rig.port());
   WsClient good(rig.port());
@@ -344,7 +344,7 @@ void a_flood_is_read_slowly_and_costs_the_others_nothing(void**) {
   flooding.join();
 }
 
-void it_stops_at_once_with_pages_open(void**) {
+TEST(it_stops_at_once_with_pages_open) {
   auto rig = std::make_unique<ScriptRig>(20);
   WsClient client(rig->port());
   assert_true(client.open());
@@ -355,18 +355,4 @@ void it_stops_at_once_with_pages_open(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(setup_and_state_come_first),
-      cmocka_unit_test(two_pages_get_the_same_bytes),
-      cmocka_unit_test(one_that_does_not_read_loses_frames_and_is_told),
-      cmocka_unit_test(wishes_are_done_or_refused),
-      cmocka_unit_test(a_log_is_a_file_and_takes_no_wishes),
-      cmocka_unit_test(a_log_that_changes_while_it_is_shown),
-      cmocka_unit_test(what_is_no_message_closes_the_connection),
-      cmocka_unit_test(who_only_looks_is_not_heard),
-      cmocka_unit_test(a_flood_is_read_slowly_and_costs_the_others_nothing),
-      cmocka_unit_test(it_stops_at_once_with_pages_open),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

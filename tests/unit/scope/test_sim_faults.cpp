@@ -169,23 +169,23 @@ void try_all(const char* task, const std::vector<int>& numbers) {
   assert_true(tried == numbers);
 }
 
-void of_the_digging_excavator(void**) {
+TEST(of_the_digging_excavator) {
   try_all("dig", {1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 13, 14, 15, 16, 17, 18, 19, 20,
                   21, 22, 24, 26, 27, 28, 29, 33, 34, 35, 36, 37, 38, 41, 42, 43, 46, 47});
 }
 
-void of_the_excavator_with_swing(void**) {
+TEST(of_the_excavator_with_swing) {
   try_all("autodig", {1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 13, 14, 15, 16, 17, 18, 19, 20,
                       21, 22, 24, 26, 27, 28, 29, 33, 34, 35, 36, 37, 38, 41, 42, 43, 46, 47});
 }
 
-void of_the_dozer(void**) {
+TEST(of_the_dozer) {
   try_all("grade", {1,  2,  3,  4,  6,  7,  8,  9,  10, 13, 14, 15, 16, 17, 18, 19, 20, 21,
                     22, 24, 26, 27, 28, 29, 33, 34, 35, 36, 38, 39, 40, 41, 42, 43, 46, 47});
 }
 
 /// What is broken twice: a controller that is killed and finds its bus down when it starts again.
-void two_at_once(void**) {
+TEST(two_at_once) {
   for (const char* first : {"controller-killed", "bus-down"}) {
     const char* second = first == std::string("bus-down") ? "controller-killed" : "bus-down";
     SimWatch sim("dig");
@@ -202,12 +202,4 @@ void two_at_once(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(of_the_digging_excavator),
-      cmocka_unit_test(of_the_excavator_with_swing),
-      cmocka_unit_test(of_the_dozer),
-      cmocka_unit_test(two_at_once),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -23,14 +23,14 @@ int cycles_in_a_second(double pace) {
   return cycles;
 }
 
-void deadlines_follow_the_pace(void**) {
+TEST(deadlines_follow_the_pace) {
   assert_int_equal(cycles_in_a_second(1.0), 100);
   assert_int_equal(cycles_in_a_second(10.0), 1000);
   assert_int_equal(cycles_in_a_second(0.1), 10);
   assert_int_equal(cycles_in_a_second(2.5), 250);
 }
 
-void late_cycles_are_caught_up_a_little(void**) {
+TEST(late_cycles_are_caught_up_a_little) {
   const SimPacer::Clock::time_point begin{};
   SimPacer pacer(begin);
   assert_int_equal(pacer.due(begin), 1);
@@ -46,7 +46,7 @@ void late_cycles_are_caught_up_a_little(void**) {
   assert_true(pacer.next() == begin + milliseconds(1070));
 }
 
-void a_faster_pace_does_not_wait_for_the_slow_one(void**) {
+TEST(a_faster_pace_does_not_wait_for_the_slow_one) {
   const SimPacer::Clock::time_point begin{};
   SimPacer pacer(begin);
   pacer.set_pace(0.1, begin);
@@ -58,11 +58,4 @@ void a_faster_pace_does_not_wait_for_the_slow_one(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(deadlines_follow_the_pace),
-      cmocka_unit_test(late_cycles_are_caught_up_a_little),
-      cmocka_unit_test(a_faster_pace_does_not_wait_for_the_slow_one),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -13,7 +13,7 @@ using namespace graben;
 using test::json;
 using test::SimWatch;
 
-void works_by_itself_stops_and_runs(void**) {
+TEST(works_by_itself_stops_and_runs) {
   SimWatch sim("dig");
   assert_true(sim.state()["running"] == true);
   assert_false(sim.run_to_active(0.29));
@@ -38,7 +38,7 @@ void works_by_itself_stops_and_runs(void**) {
   assert_false(sim.bus.left_active);
 }
 
-void state_has_a_revision(void**) {
+TEST(state_has_a_revision) {
   SimWatch sim("dig");
   std::uint64_t seen = 0;
   const std::optional<json> first = sim.session.state(seen);
@@ -59,7 +59,7 @@ void state_has_a_revision(void**) {
   assert_true(sim.state()["faults"].empty());
 }
 
-void speed_is_taken_at_once(void**) {
+TEST(speed_is_taken_at_once) {
   SimWatch sim("grade");
   double wanted_mps = 0.0;
   sim.also = [&wanted_mps](const CanFrame& frame) {
@@ -96,7 +96,7 @@ struct DigSeen {
   }
 };
 
-void soil_comes_and_goes_while_it_digs(void**) {
+TEST(soil_comes_and_goes_while_it_digs) {
   SimWatch sim("dig");
   assert_true(sim.run_to_active(1.0));
   sim.run(0.5);
@@ -125,7 +125,7 @@ void soil_comes_and_goes_while_it_digs(void**) {
   assert_false(sim.bus.left_active);
 }
 
-void a_rock_comes_loose_and_is_gone(void**) {
+TEST(a_rock_comes_loose_and_is_gone) {
   SimWatch sim("dig");
   assert_true(sim.run_to_active(1.0));
   DigSeen seen;
@@ -160,7 +160,7 @@ struct PositionSeen {
   }
 };
 
-void restart_goes_back_and_time_goes_on(void**) {
+TEST(restart_goes_back_and_time_goes_on) {
   SimWatch sim("grade");
   PositionSeen seen;
   sim.also = [&seen](const CanFrame& frame) { seen.see(frame); };
@@ -187,7 +187,7 @@ void restart_goes_back_and_time_goes_on(void**) {
   assert_true(sim.bus.mode == EcuMode::kReady);
 }
 
-void a_grade_begins_anew(void**) {
+TEST(a_grade_begins_anew) {
   SimWatch sim("grade");
   PositionSeen seen;
   sim.also = [&seen](const CanFrame& frame) { seen.see(frame); };
@@ -201,7 +201,7 @@ void a_grade_begins_anew(void**) {
 }
 
 /// From its start, where the machine stands at once: nothing has to be approached.
-void a_task_begins_anew(void**) {
+TEST(a_task_begins_anew) {
   SimWatch sim("autodig");
   int begun = 0;
   int jumps = 0;
@@ -228,7 +228,7 @@ void a_task_begins_anew(void**) {
 }
 
 /// Frames of the same simulated time are the same, whatever the pace, but for measured times.
-void pace_changes_nothing_but_pace(void**) {
+TEST(pace_changes_nothing_but_pace) {
   SimWatch one("dig");
   SimWatch other("dig");
   other.wish({{"do", "pace"}, {"value", 10}});
@@ -241,17 +241,4 @@ void pace_changes_nothing_but_pace(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(works_by_itself_stops_and_runs),
-      cmocka_unit_test(state_has_a_revision),
-      cmocka_unit_test(speed_is_taken_at_once),
-      cmocka_unit_test(soil_comes_and_goes_while_it_digs),
-      cmocka_unit_test(a_rock_comes_loose_and_is_gone),
-      cmocka_unit_test(restart_goes_back_and_time_goes_on),
-      cmocka_unit_test(a_grade_begins_anew),
-      cmocka_unit_test(a_task_begins_anew),
-      cmocka_unit_test(pace_changes_nothing_but_pace),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -88,13 +88,13 @@ void runs_at(double pace, double real_s) {
   assert_true(running.first.rfind("(0000000000.000000) vcan0 ", 0) == 0);
 }
 
-void is_as_fast_as_it_is_asked_to_be(void**) {
+TEST(is_as_fast_as_it_is_asked_to_be) {
   runs_at(1.0, 0.4);
   runs_at(0.2, 0.4);
   runs_at(5.0, 0.4);
 }
 
-void ends_when_it_is_told_so(void**) {
+TEST(ends_when_it_is_told_so) {
   for (const double pace : {0.1, 1.0}) {
     Running running(pace);
     std::this_thread::sleep_for(milliseconds(10));
@@ -104,7 +104,7 @@ void ends_when_it_is_told_so(void**) {
   }
 }
 
-void tells_of_another_state(void**) {
+TEST(tells_of_another_state) {
   Running running(1.0);
   std::uint64_t seen = 0;
   std::optional<json> state;
@@ -130,7 +130,7 @@ void tells_of_another_state(void**) {
   assert_true(running.source->control({{"do", "dig"}}).has_value());
 }
 
-void says_what_it_is(void**) {
+TEST(says_what_it_is) {
   scope::SimOptions options;
   options.task = "grade";
   const auto source = scope::make_sim_source(options);
@@ -143,12 +143,4 @@ void says_what_it_is(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(is_as_fast_as_it_is_asked_to_be),
-      cmocka_unit_test(ends_when_it_is_told_so),
-      cmocka_unit_test(tells_of_another_state),
-      cmocka_unit_test(says_what_it_is),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -23,7 +23,7 @@ void refused(SimWatch& sim, const json& message, const char* words) {
   assert_true(why && why->find(words) != std::string::npos);
 }
 
-void messages_that_are_none(void**) {
+TEST(messages_that_are_none) {
   SimWatch sim("dig");
   const json before = sim.state();
   const char* kinds = "run, stop, restart, clear, pace, speed, soil, obstacle or fault";
@@ -43,7 +43,7 @@ void messages_that_are_none(void**) {
   assert_true(sim.state() == before);
 }
 
-void values_out_of_their_range(void**) {
+TEST(values_out_of_their_range) {
   SimWatch sim("dig");
   for (const json& value : {json(0.0999), json(10.001), json(-1), json(0), json("1"), json(true),
                             json(nullptr), json(std::numeric_limits<double>::quiet_NaN())}) {
@@ -68,7 +68,7 @@ void values_out_of_their_range(void**) {
   refused(sim, {{"do", "fault"}, {"id", "track-speed"}, {"value", true}}, "allowed");
 }
 
-void more_wishes_than_can_wait(void**) {
+TEST(more_wishes_than_can_wait) {
   SimWatch sim("grade");
   for (std::size_t n = 0; n < scope::SimSession::kWishesMost; ++n) {
     sim.wish({{"do", "stop"}});
@@ -78,7 +78,7 @@ void more_wishes_than_can_wait(void**) {
   sim.wish({{"do", "stop"}});
 }
 
-void options_that_do_not_fit(void**) {
+TEST(options_that_do_not_fit) {
   const auto throws = [](const scope::SimOptions& options, const char* words) {
     try {
       const SimWatch sim(options);
@@ -111,7 +111,7 @@ void options_that_do_not_fit(void**) {
   assert_true(throws(options, "sand, loam, clay, stones"));
 }
 
-void only_the_digging_machine_has_ground(void**) {
+TEST(only_the_digging_machine_has_ground) {
   assert_true(SimWatch("dig").session.setup()["can"] ==
               json::parse(R"({"soil": true, "obstacle": true})"));
   for (const char* task : {"grade", "autodig"}) {
@@ -130,7 +130,7 @@ void only_the_digging_machine_has_ground(void**) {
               json::parse(R"({"soil": false, "obstacle": false})"));
 }
 
-void setup_names_its_faults(void**) {
+TEST(setup_names_its_faults) {
   for (const char* task : {"dig", "grade", "autodig"}) {
     const json setup = SimWatch(task).session.setup();
     assert_true(setup["task"] == task);
@@ -147,14 +147,4 @@ void setup_names_its_faults(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(messages_that_are_none),
-      cmocka_unit_test(values_out_of_their_range),
-      cmocka_unit_test(more_wishes_than_can_wait),
-      cmocka_unit_test(options_that_do_not_fit),
-      cmocka_unit_test(only_the_digging_machine_has_ground),
-      cmocka_unit_test(setup_names_its_faults),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()
