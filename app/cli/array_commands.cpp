@@ -15,6 +15,7 @@
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/cli/program.hpp"
+#include "app/cli/program_files.hpp"
 
 namespace graben::cli {
 namespace {
@@ -53,8 +54,8 @@ std::string options_as_typed(const CLI::App& command) {
 }
 
 std::string shard_command(const CLI::App& command) {
-  return shell_word(fs::read_symlink("/proc/self/exe").string()) + " campaign " +
-         command.get_name() + options_as_typed(command);
+  return shell_word(graben_file().string()) + " campaign " + command.get_name() +
+         options_as_typed(command);
 }
 
 /// A campaign that cannot begin is refused here, not by each task. Leaves nothing.

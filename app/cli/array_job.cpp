@@ -15,6 +15,7 @@
 
 #include "app/cli/output_file.hpp"
 #include "app/cli/program.hpp"
+#include "app/cli/program_files.hpp"
 #include "app/machines/missing_file.hpp"
 #include "app/runs/campaign_run.hpp"
 
@@ -61,7 +62,7 @@ std::string merge_script(const ArrayJob& job) {
       "# After all tasks: the shards as one file, or what is left once more. Written by graben.\n"
       "unset SLURM_RESTART_COUNT\n"
       "exec {} campaign collect {}\n",
-      shell_word(fs::read_symlink("/proc/self/exe").string()), shell_word(job.summary.string()));
+      shell_word(graben_file().string()), shell_word(job.summary.string()));
 }
 
 /// sbatch reads a '%' in a file's name as the begin of a pattern.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -116,11 +117,7 @@ void run_task(const TaskCommand& options) {
 
 void add_autodig(CLI::App& app, int& status) {
   auto options = std::make_shared<TaskCommand>();
-  CLI::App* command = app.add_subcommand(
-      "autodig",
-      "Run a task, an area to be dug or straight lines step by step, with swing, on the simulated "
-      "machine, over a CAN bus in memory, in the air or in soil. The task is planned first; one "
-      "that can't be had ends with status 1 and says where");
+  CLI::App* command = add_command(app, "autodig");
   add_profile_option(*command, options->profile);
   command->add_option("--out", options->out, "Folder for autodig.log and autodig.html")
       ->capture_default_str();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cli/array_commands.hpp"
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -305,7 +306,7 @@ void add_campaign_merge(CLI::App& campaign, int& status) {
 }  // namespace
 
 void add_campaign(CLI::App& app, int& status) {
-  CLI::App* campaign = app.add_subcommand("campaign", "Many runs and their distribution");
+  CLI::App* campaign = add_command(app, "campaign");
   campaign->require_subcommand(1);
   add_examples(*campaign, {"campaign dig --draws 40 --summary out/draws.csv"});
   add_campaign_dig(*campaign, status);

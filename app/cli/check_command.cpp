@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -86,10 +87,7 @@ void check(const CheckCommand& options) {
 
 void add_check(CLI::App& app, int& status) {
   auto options = std::make_shared<CheckCommand>();
-  CLI::App* command = app.add_subcommand(
-      "check",
-      "What a profile means: reach, joint ranges, speeds, forces, modes, and warnings of what is "
-      "allowed but implausible; as text and as a drawing. A wrong profile ends with status 1");
+  CLI::App* command = add_command(app, "check");
   command->add_option("profile", options->profile, "Machine profile: file or shipped name");
   command->add_option("--bus", options->bus,
                       "Bus profile that the machine is put on, a file or a shipped one such as "

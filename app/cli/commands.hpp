@@ -14,6 +14,9 @@ class App;
 
 namespace graben::cli {
 
+/// Adds the commands of the program that is linked; made by CMake (graben_program).
+void add_commands(CLI::App& app, int& status);
+
 void add_check(CLI::App& app, int& status);
 void add_dig(CLI::App& app, int& status);
 void add_grade(CLI::App& app, int& status);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/commission_on_bus.hpp"
 #include "app/cli/console.hpp"
@@ -150,12 +151,7 @@ void add_bus_options(CLI::App& command, CommissionCommand& options, CLI::Option&
 
 void add_commission(CLI::App& app, int& status) {
   auto options = std::make_shared<CommissionCommand>();
-  CLI::App* command = app.add_subcommand(
-      "commission",
-      "Leads a machine through what identify needs, one drive and direction at a time, guarded by "
-      "its ECU: edges, steps at five speeds, pulses, touches of the stroke's ends, two drives of "
-      "one pump. With --can a real one, while the operator holds the deadman; without it a "
-      "simulated one in memory. Writes a log; changes nothing in the profile");
+  CLI::App* command = add_command(app, "commission");
   CLI::Option* const can =
       command->add_option("--can", options->interface, "CAN interface, such as can0");
   add_profile_option(*command, options->profile);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -65,11 +66,7 @@ void compare(const CompareCommand& options) {
 
 void add_compare(CLI::App& app, int& status) {
   auto options = std::make_shared<CompareCommand>();
-  CLI::App* command = app.add_subcommand(
-      "compare",
-      "Two runs over each other, from their logs (candump -L): figures beside each other, and one "
-      "page with the first run's frames, the second's curves dashed, and the differences. Both are "
-      "counted from where their controllers became active");
+  CLI::App* command = add_command(app, "compare");
   command->add_option("first", options->first, "candump log, plain or gzip")->required();
   command->add_option("second", options->second, "candump log, plain or gzip")->required();
   command->add_option("--profile", options->profile,

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -70,5 +72,27 @@ ordered_json described(const CLI::App& app) {
 }  // namespace
 
 std::string description_json(const CLI::App& app) { return described(app).dump(1) + "\n"; }
+
+std::string description_json(const CLI::App& app, const std::map<std::string, std::string>& said) {
+  std::map<std::string, ordered_json> commands;
+  for (const auto& [program, text] : said) {
+    for (const ordered_json& command : ordered_json::parse(text)["commands"]) {
+      commands[command["name"].get<std::string>()] = command;
+    }
+  }
+  ordered_json all = described(app);
+  for (ordered_json& command : all["commands"]) {
+    const auto found = commands.find(command["name"].get<std::string>());
+    if (found == commands.end()) {
+      throw std::logic_error(fmt::format("{}: no program has it", command["name"].dump()));
+    }
+    command = found->second;
+    commands.erase(found);
+  }
+  if (!commands.empty()) {
+    throw std::logic_error(fmt::format("{}: not in the table", commands.begin()->first));
+  }
+  return all.dump(1) + "\n";
+}
 
 }  // namespace graben::cli

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -178,8 +179,7 @@ void add_task(CLI::App& command, DigCommand& options) {
 
 void add_dig(CLI::App& app, int& status) {
   auto options = std::make_shared<DigCommand>();
-  CLI::App* command = app.add_subcommand(
-      "dig", "Dig round Kim's path on the simulated machine, over a CAN bus in memory");
+  CLI::App* command = add_command(app, "dig");
   command->add_option("--profile", options->profile,
                       "Machine profile: file or shipped name; excavator_22t unless told, with "
                       "--task excavator_12t");

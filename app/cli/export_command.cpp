@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -123,11 +124,7 @@ void export_log(const ExportCommand& options) {
 
 void add_export(CLI::App& app, int& status) {
   auto options = std::make_shared<ExportCommand>();
-  CLI::App* command = app.add_subcommand("export",
-                                         "A log (candump -L) for other tools: MCAP, which Foxglove "
-                                         "and PlotJuggler open. A channel for "
-                                         "each message of the bus, in SI units; the controller's "
-                                         "state in words; its faults as events");
+  CLI::App* command = add_command(app, "export");
   command->add_option("log", options->log, "candump log, plain or gzip")->required();
   command->add_option("--mcap", options->mcap, "File to write")->required();
   command->add_option("--bus", options->bus,

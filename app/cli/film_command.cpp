@@ -17,12 +17,14 @@
 
 #include "app/cli/browser.hpp"
 #include "app/cli/child_process.hpp"
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
 #include "app/cli/program.hpp"
+#include "app/cli/program_files.hpp"
 #include "app/runs/run_log.hpp"
 #include "platform/linux/process.hpp"
 
@@ -174,7 +176,7 @@ std::vector<double> moments(const FilmCommand& options, std::pair<double, double
 std::size_t film(const FilmCommand& options, const Size& size, const fs::path& file) {
   const Scratch scratch;
   std::vector<std::string> server = {
-      fs::read_symlink("/proc/self/exe").string(), "scope", "--log", options.log, "--port", "0"};
+      graben_file().string(), "scope", "--log", options.log, "--port", "0"};
   if (!options.profile.empty()) {
     server.insert(server.end(), {"--profile", options.profile});
   }
@@ -240,10 +242,7 @@ void make_film(const FilmCommand& options) {
 
 void add_film(CLI::App& app, int& status) {
   auto options = std::make_shared<FilmCommand>();
-  CLI::App* command = app.add_subcommand(
-      "film",
-      "The scope's picture of a log (candump -L) as a film. Needs Chromium and ffmpeg; takes some "
-      "tenths of a second for each picture");
+  CLI::App* command = add_command(app, "film");
   command->add_option("log", options->log, "candump log, plain or gzip")->required();
   command->add_option("--out", options->out, "Film to write: .webm (VP9) or .mp4 (H.264)")
       ->required();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -168,8 +169,7 @@ void compare(const GradeCommand& options) {
 
 void add_grade(CLI::App& app, int& status) {
   auto options = std::make_shared<GradeCommand>();
-  CLI::App* command = app.add_subcommand(
-      "grade", "Cut the profile's grade with the simulated dozer, over a CAN bus in memory");
+  CLI::App* command = add_command(app, "grade");
   add_profile_option(*command, options->profile);
   command->add_option("--out", options->out, "Folder for grade.log and grade.html")
       ->capture_default_str();

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ inline constexpr std::size_t kHelpWidth = 80;
 
 /// All commands and options as JSON.
 [[nodiscard]] std::string description_json(const CLI::App& app);
+
+/// The same of the front, with the commands of its programs from what each of them says of itself.
+/// Throws std::logic_error where a command has no program, or a program has another one.
+[[nodiscard]] std::string description_json(const CLI::App& app,
+                                           const std::map<std::string, std::string>& said);
 
 /// Gives the application, and every command that is added afterwards, its help.
 void set_help(CLI::App& app);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -116,11 +117,7 @@ void add_log_options(CLI::App& command, IdentifyLogCommand& options) {
 
 void add_identify(CLI::App& app, int& status) {
   auto options = std::make_shared<IdentifyCommand>();
-  CLI::App* command = app.add_subcommand(
-      "identify",
-      "How a machine answers its commands, found from recorded motion: dead time, lags, curves of "
-      "each direction, pumps, zeros of sensors; judged by motion that was left out. From logs "
-      "into a better profile, or of foreign recordings into figures");
+  CLI::App* command = add_command(app, "identify");
   add_csv_options(*command, *options);
   add_log_options(*command, options->log);
   command->add_option("--summary", options->log.summary, "Figures as JSON");

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -84,11 +85,7 @@ void add_record_options(CLI::App& command, MeasureUpCommand& options, CLI::Optio
 
 void add_measure_up(CLI::App& app, int& status) {
   auto options = std::make_shared<MeasureUpCommand>();
-  CLI::App* command = app.add_subcommand(
-      "measure-up",
-      "How the IMUs sit on their links, from a log in which the bucket's edge stood on one fixed "
-      "point in several postures, each for 10 s; into the profile's [imu]. --record makes such a "
-      "log with a simulated machine");
+  CLI::App* command = add_command(app, "measure-up");
   CLI::Option* const log = command->add_option(
       "--log", options->log, "Log of the bus with the IMUs' frames (candump -L, plain or gzip)");
   CLI::Option* const record =

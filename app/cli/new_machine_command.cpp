@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -135,11 +136,7 @@ void new_machine(const NewMachine& options) {
 
 void add_new_machine(CLI::App& app, int& status) {
   auto options = std::make_shared<NewMachine>();
-  CLI::App* command = app.add_subcommand(
-      "new-machine",
-      "Asks for a machine's measures in mm, degrees, bar, rpm and L/min, a line each on standard "
-      "input, and writes its profile with a comment on every key. What is not told stays as it is "
-      "in another profile and is marked so");
+  CLI::App* command = add_command(app, "new-machine");
   command->add_option("--like", options->like, "Profile that it begins with: file or shipped name")
       ->capture_default_str();
   command->add_option("--out", options->out, "Profile to write, such as mine.toml")->required();

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -16,10 +17,7 @@ void add_operate(CLI::App& app, int& status) {
     double silent_after_s = 5.0;
   };
   auto options = std::make_shared<OperateCommand>();
-  CLI::App* command = app.add_subcommand(
-      "operate",
-      "The operator's station of an excavator on a bus: a gamepad moves the machine while its left "
-      "shoulder button is held. Shows what the controller says. Until SIGINT or SIGTERM");
+  CLI::App* command = add_command(app, "operate");
   command->add_option("--can", options->run.interface, "CAN interface, such as can0")->required();
   auto* gamepad =
       command->add_option("--gamepad", options->run.gamepad,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -158,11 +159,7 @@ void plan(const PlanCommand& options) {
 
 void add_plan(CLI::App& app, int& status) {
   auto options = std::make_shared<PlanCommand>();
-  CLI::App* command = app.add_subcommand(
-      "plan",
-      "Plan a straight line of the bucket's teeth, with swing, or a task; nothing moves. Without "
-      "--task, --from, --to and a pace: the line of NAME.sim.toml. What can't be had ends with "
-      "status 1 and says where, as autodig does");
+  CLI::App* command = add_command(app, "plan");
   add_profile_option(*command, options->profile);
   CLI::Option* const task =
       command->add_option("--task", options->task, "A task by file or name, instead of a line");

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -130,8 +131,7 @@ void plant_on_bus(const PlantCommand& options) {
 
 void add_plant(CLI::App& app, int& status) {
   auto options = std::make_shared<PlantCommand>();
-  CLI::App* command = app.add_subcommand(
-      "plant", "The simulated machine in real time on a CAN interface, valve side and all");
+  CLI::App* command = add_command(app, "plant");
   command->add_option("--can", options->run.interface, "CAN interface, such as vcan0")->required();
   add_profile_option(*command, options->profile);
   command->add_option("--speed", options->run.speed, "Simulated over real time, 0.1 .. 10")

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -116,8 +117,7 @@ void add_pose(CLI::App& app, int& status) {
     double swing_rad = 0.0;
   };
   auto options = std::make_shared<PoseCommand>();
-  CLI::App* command =
-      app.add_subcommand("pose", "Tip pose and joint angles at given strokes, as JSON");
+  CLI::App* command = add_command(app, "pose");
   command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
       ->required();
   command
@@ -145,9 +145,7 @@ void add_strokes(CLI::App& app, int& status) {
     TipPose pose;
   };
   auto options = std::make_shared<PoseCommand>();
-  CLI::App* command = app.add_subcommand(
-      "strokes",
-      "Strokes for a tip pose, as JSON; a pose that can't be had gives strokes null and a status");
+  CLI::App* command = add_command(app, "strokes");
   command->add_option("--profile", options->profile, "Machine profile: file or shipped name")
       ->required();
   command->add_option("--x", options->pose.x_m, "Tip, forward of the boom foot, m")->required();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
@@ -113,10 +114,7 @@ void show(const ScopeCommand& options) {
 
 void add_scope(CLI::App& app, int& status) {
   auto options = std::make_shared<ScopeCommand>();
-  CLI::App* command = app.add_subcommand(
-      "scope",
-      "The machine in a browser: posed, with plots and faults, from what is on the bus. Serves a "
-      "page until SIGINT or SIGTERM; a bus is only heard. Needs no privilege");
+  CLI::App* command = add_command(app, "scope");
   auto* source = command->add_option_group("source", "What is shown");
   source->add_option("--can", options->can, "CAN interfaces, such as can0 or can0,can1")
       ->delimiter(',')

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/mcv_json.hpp"
@@ -56,10 +57,7 @@ std::vector<std::string> policy_names() {
 }  // namespace
 
 void add_solve(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand(
-      "solve",
-      "Solve cases of the valve's optimisation: JSON lines from standard input, one "
-      "result line each");
+  CLI::App* command = add_command(app, "solve");
   auto policy = std::make_shared<std::string>("global");
   command
       ->add_option("--policy", *policy,
