@@ -17,12 +17,12 @@ import sys
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 DECLARED = re.compile(r"(?<![\w:])(~?\w+)\s*(?:\[[^\]]*\]\s*)*(?:[({=;]|:(?!:)|$)")
-MACRO = re.compile(r"^#define (\w+)")
+MACRO = re.compile(r"^#define (\w+)|^namespace (\w+) =")
 
 
 def names_of(line: str) -> set[str]:
     if match := MACRO.match(line):
-        return {match[1]}
+        return {match[1] or match[2]}
     line = line.replace(" final ", " ")
     if not re.match(r"[\w\[]", line) or line.startswith(("namespace", "template", "using namespace", "static_assert")):
         return set()

@@ -24,13 +24,33 @@ graben_build_locked() (
     graben_say "configuring $2"
     cmake --preset "$2" ${4:+"-D$4=ON"} >"$log" 2>&1 || graben_build_failed "$2" "$log"
   fi
-  if ! ninja -C "build/$2" -n "$3" 2>/dev/null | grep -q 'no work to do'; then
-    graben_say "building $2 (the first time takes minutes)"
-    # Keep going: one broken target must not hide the next.
-    cmake --build "build/$2" --target "$3" -j "$(nproc)" -- -k 0 >"$log" 2>&1 ||
-      graben_build_failed "$2" "$log"
-  fi
+  : >"$log"
+  graben_watch_build "$2" "$log" $$ &
+  watcher=$!
+  # Keep going: one broken target must not hide the next.
+  status=0
+  cmake --build "build/$2" --target "$3" -j "$(nproc)" -- -k 0 >"$log" 2>&1 || status=1
+  kill "$watcher" 2>/dev/null
+  wait "$watcher" 2>/dev/null || true
+  if [ -t 2 ]; then printf '\r\033[K' >&2; fi
+  [ "$status" = 0 ] || graben_build_failed "$2" "$log"
 )
+
+# graben_watch_build PRESET LOG PID: says how far Ninja is, on a terminal in one line each second, elsewhere
+# after two seconds and then every ten; until it is killed or PID is gone.
+graben_watch_build() {
+  seconds=0
+  # The last sleep outlives what it waited for: it must hold nobody's pipe.
+  while sleep 1 >/dev/null 2>&1 && kill -0 "$3" 2>/dev/null; do
+    seconds=$((seconds + 1))
+    done_of=$(sed -n 's/^\[\([0-9]*\)\/\([0-9]*\)\].*/\1 of \2 targets/p' "$2" | tail -n 1)
+    if [ -t 2 ]; then
+      printf '\r\033[Kgraben: building %s: %s' "$1" "${done_of:-looking}" >&2
+    elif [ "$seconds" = 2 ] || [ $((seconds % 10)) -eq 0 ]; then
+      graben_say "building $1: ${done_of:-looking}, $seconds s"
+    fi
+  done
+}
 
 graben_build_failed() {
   # Without Ninja's progress: what is left is what went wrong.

@@ -76,7 +76,8 @@ std::string description_json(const CLI::App& app) { return described(app).dump(1
 std::string description_json(const CLI::App& app, const std::map<std::string, std::string>& said) {
   std::map<std::string, ordered_json> commands;
   for (const auto& [program, text] : said) {
-    for (const ordered_json& command : ordered_json::parse(text)["commands"]) {
+    const ordered_json program_said = ordered_json::parse(text);
+    for (const ordered_json& command : program_said["commands"]) {
       commands[command["name"].get<std::string>()] = command;
     }
   }

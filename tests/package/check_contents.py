@@ -85,9 +85,9 @@ def check_members(members: list[tarfile.TarInfo]) -> list[str]:
     return problems
 
 
-def check_program(program: bytes) -> list[str]:
+def check_program(name: str, program: bytes) -> list[str]:
     problems = []
-    print(f"/usr/bin/graben-ecu: {len(program)} bytes")
+    print(f"{name}: {len(program)} bytes")
     for place in {str(ROOT), str(pathlib.Path.home())} - {"/"}:
         if (at := program.find(place.encode())) >= 0:
             problems.append(f"the program knows a folder of its builder: {program[at:at + 80]!r}")
@@ -114,7 +114,7 @@ def main() -> int:
             for member in tar:
                 members.append(member)
                 if member.name == "./usr/bin/graben-ecu":
-                    problems += check_program(tar.extractfile(member).read())
+                    problems += check_program(member.name, tar.extractfile(member).read())
     problems += check_members(members)
     if not options:
         problems += check_lintian(package)

@@ -21,10 +21,17 @@ TAG = re.compile(r"^([EW]): graben: (\S+)(.*)$", re.MULTILINE)
 LIBRARIES = re.compile(r"^(lib[a-z0-9.+-]+|zlib1g)$")
 
 
+def programs() -> set[str]:
+    """Programs behind graben, from its table: {"dig", "dig", ...}, command and program."""
+    table = (ROOT / "app/cli/command_table.hpp").read_text(encoding="utf-8")
+    return set(re.findall(r'^    \{"[a-z-]+", "([a-z]+)",', table, re.MULTILINE))
+
+
 def wanted_files(commands: set[str]) -> dict[str, int]:
     shipped = [f"machines/{path.relative_to(MACHINES)}" for path in MACHINES.rglob("*.toml")]
-    return {name: 0o755 if name.startswith("./usr/bin/") else 0o644 for name in (
-        "./usr/bin/graben", *(f"./usr/share/graben/{name}" for name in shipped),
+    return {name: 0o755 if name.startswith(("./usr/bin/", "./usr/libexec/")) else 0o644 for name in (
+        "./usr/bin/graben", *(f"./usr/libexec/graben/graben-{name}" for name in programs()),
+        *(f"./usr/share/graben/{name}" for name in shipped),
         *(f"./usr/share/man/man1/{name}.1.gz" for name in commands),
         "./usr/share/bash-completion/completions/graben",
         *(f"./usr/share/doc/graben/{name}" for name in ("README", "changelog.gz", "copyright")))}
@@ -49,7 +56,8 @@ def check_unpacked(package: str, folder: pathlib.Path) -> list[str]:
     problems += [f"{name} has the mode {path.lstat().st_mode & 0o7777:o}" for name, path in found.items()
                  if name in wanted and (path.is_symlink() or path.stat().st_mode & 0o7777 != wanted[name])]
     problems += [f"{name} is graben-ecu's" for name in sorted(found.keys() & check_contents.FILES.keys())]
-    problems += check_contents.check_program((folder / "usr/bin/graben").read_bytes())
+    for file in (folder / "usr/bin/graben", *(folder / "usr/libexec/graben").iterdir()):
+        problems += check_contents.check_program(file.name, file.read_bytes())
     for name in ("usr/share/man/man1/graben-dig.1.gz", "usr/share/man/man1/graben.1.gz"):
         page = subprocess.run(["gzip", "-dc", folder / name], check=True, capture_output=True, text=True).stdout
         problems += [f"{name} has no {part}" for part in (".SH NAME", ".SH OPTIONS", ".SH EXAMPLES") if part not in page]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the built pages as a C++ source: scope_page() and operator_page().
+"""Writes a built page as a C++ source: embed.py scope|operator PAGE OUTPUT makes scope_page() or operator_page().
 
 Nothing of it is compiled but one directive: the bytes are taken in by the assembler, since a
 compiler takes a second for each megabyte of an array.
@@ -46,18 +46,17 @@ def voices_of(page: str) -> list[str]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("name", choices=("scope", "operator"))
     parser.add_argument("page", type=pathlib.Path)
-    parser.add_argument("operators", type=pathlib.Path, help="the page that only looks")
     parser.add_argument("output", type=pathlib.Path)
     options = parser.parse_args()
-    if options.page.read_text(encoding="utf-8").count(MARK + "</script>") != 1:
-        sys.exit(f"embed.py: {options.page} needs exactly one empty {MARK}")
-    found = voices_of(options.operators.read_text(encoding="utf-8"))
-    if found:
-        sys.exit(f"embed.py: {options.operators} must not be able to send, but has {found}")
-    options.output.write_text(
-        HEAD + PAGE.format(name="scope_page", page=options.page)
-        + PAGE.format(name="operator_page", page=options.operators), encoding="utf-8")
+    text = options.page.read_text(encoding="utf-8")
+    if options.name == "scope":
+        if text.count(MARK + "</script>") != 1:
+            sys.exit(f"embed.py: {options.page} needs exactly one empty {MARK}")
+    elif found := voices_of(text):
+        sys.exit(f"embed.py: {options.page} only looks and must not be able to send, but has {found}")
+    options.output.write_text(HEAD + PAGE.format(name=f"{options.name}_page", page=options.page), encoding="utf-8")
 
 
 if __name__ == "__main__":
