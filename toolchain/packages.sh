@@ -36,6 +36,8 @@ graben_missing() {
   # Debian's Node.js only recommends the certificates without which npm reaches no registry.
   [ -e /etc/ssl/certs/ca-certificates.crt ] || echo ca-certificates
   if [ "$1" = check ]; then
+    # What each test costs is GNU time's word.
+    [ -x /usr/bin/time ] || echo time
     has_command clang-format-14 || has_command clang-format || echo clang-format
     has_command clang-tidy-14 || has_command clang-tidy || echo clang-tidy
     has_command gcovr || echo gcovr

@@ -18,6 +18,7 @@ import signal
 import subprocess
 import sys
 
+import changed_since
 import tree
 
 FENCE = re.compile(r"^```(\w*)\s*$")
@@ -71,8 +72,13 @@ def own_tests() -> dict[tuple[str, ...], str]:
         return {}
     listed = subprocess.run(["ctest", "--test-dir", arguments.build, "--show-only=json-v1"],
                             stdout=subprocess.PIPE, check=True).stdout
-    return {words_of(test["command"]): test["name"]
+    return {words_of(without_time(test["command"])): test["name"]
             for test in json.loads(listed)["tests"] if "command" in test}
+
+
+def without_time(command: list[str]) -> list[str]:
+    """A test's command stands behind GNU time and its five options (tests/cost/cost.cmake)."""
+    return command[7:] if os.path.basename(command[0]) == "time" else command
 
 
 def is_file_of(word: str) -> bool:
@@ -146,14 +152,26 @@ def run(where: str, script: str):
         problems.append(f"{where}: block failed")
 
 
+def is_changed(name: str, body: str) -> bool:
+    """Whether a block's document changed, or a file that it names, or what it calls through ./run or a preset."""
+    files = [name, *(word for word in re.findall(r"[\w./-]+", body) if is_file_of(word))]
+    called = ["run", "toolchain", "app/cli", "app/machines", "CMakeLists.txt", "CMakePresets.json"]
+    return bool(changed_since.below(names, [word.removeprefix("./").rstrip("/") for word in files] + called))
+
+
 parser = tree.arguments(__doc__)
 parser.add_argument("--limit", type=float, default=300, help="seconds that a block may take")
+parser.add_argument("--changed", action="store_true",
+                    help="only blocks that changed since the last whole run, or whose commands did; the others are counted")
 parser.add_argument("--build", type=pathlib.Path, help="the build whose tests need not run again")
 arguments = parser.parse_args()
 root = arguments.root.resolve()
 sys.stdout.reconfigure(line_buffering=True)
 problems, total, done = [], 0, {}
 tests = own_tests()
+names, since = changed_since.changed(root, "readme") if arguments.changed else (None, "asked for")
+print(f"readme: {'everything, as ' if names is None else 'what changed '}{since}")
+unchanged = 0
 for name in sorted((n for n in tree.files(root) if n.endswith(".md")), key=lambda n: (n.count("/"), n)):
     for start, lines, reason in blocks((root / name).read_text()):
         where, body = f"{name}:{start}", "\n".join(lines)
@@ -164,7 +182,12 @@ for name in sorted((n for n in tree.files(root) if n.endswith(".md")), key=lambd
             print(f"{where}: the same as {done[body]}")
             continue
         done[body] = where
+        if names is not None and not is_changed(name, body):
+            unchanged += 1
+            continue
         script, count = script_of(name, start, lines)
         total += count
         run(where, script)
-tree.report("readme", problems, total, "commands")
+if unchanged:
+    print(f"readme: {unchanged} blocks and what they call are as they were {since} and are NOT run")
+tree.report("readme", problems, total + unchanged, "commands")

@@ -22,6 +22,7 @@ import subprocess
 import sys
 import tempfile
 
+import changed_since
 import tree
 
 JUDGED = ("firmware/", "hal/", "platform/", "app/")
@@ -99,15 +100,6 @@ def our_inputs(entry: dict) -> tuple[list[pathlib.Path], bool]:
             heavy = heavy or bool(HEAVY.match(header))
             todo += [folder / header.decode() for folder in (current.parent, *folders)]
     return sorted(found), heavy
-
-
-def touched_lately(commits: int) -> set[pathlib.Path]:
-    """What these commits, a merge as one, and the work tree touched."""
-    names = ""
-    for words in (["log", f"-{commits}", "--first-parent", "--name-only", "--format="], ["diff", "--name-only", "HEAD"],
-                  ["ls-files", "--others", "--exclude-standard"]):
-        names += subprocess.run(["git", "-C", str(root), *words], stdout=subprocess.PIPE, text=True, check=True).stdout
-    return {(root / name).resolve() for name in names.splitlines() if name}
 
 
 def key_of(entry: dict, inputs: list[pathlib.Path]) -> str:
@@ -210,8 +202,8 @@ parser = tree.arguments(__doc__)
 parser.add_argument("--build", required=True, type=pathlib.Path)
 parser.add_argument("--cache", required=True, type=pathlib.Path)
 parser.add_argument("--leave-out", metavar="FOLDER", help="whose sources are not read; it is said")
-parser.add_argument("--recent", type=int, metavar="N",
-                    help="only sources that the last N commits touched, or a header of theirs; the others are counted")
+parser.add_argument("--changed", action="store_true",
+                    help="only sources that changed since the last whole run, or a header of theirs did; the others are counted")
 parser.add_argument("--config", type=pathlib.Path, help="another one than the tree's .clang-tidy")
 arguments = parser.parse_args()
 root = arguments.root.resolve()
@@ -230,10 +222,13 @@ if arguments.leave_out:
     kept = [e for e in entries if not pathlib.Path(e["path"]).is_relative_to(root / arguments.leave_out)]
     print(f"tidy: {len(entries) - len(kept)} sources of {arguments.leave_out}/ are NOT read")
     entries = kept
-if arguments.recent and (root / ".git").exists():
-    touched = touched_lately(arguments.recent)
-    kept = [e for e in entries if config in touched or not touched.isdisjoint(our_inputs(e)[0])]
-    print(f"tidy: {len(entries) - len(kept)} sources that the last {arguments.recent} commits left are NOT read")
+names, since = changed_since.changed(root, "tidy") if arguments.changed else (None, "asked for")
+if names is None:
+    print(f"tidy: everything, as {since}")
+elif ".clang-tidy" not in names:
+    touched = {(root / name).resolve() for name in names}
+    kept = [e for e in entries if not touched.isdisjoint(our_inputs(e)[0])]
+    print(f"tidy: {len(entries) - len(kept)} sources are as they were {since} and are NOT read")
     entries = kept
 with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     # A header's finding comes up in every batch that includes it; once is enough.

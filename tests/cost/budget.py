@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What ./test cost, judged by its budget: budget.py RECORDS BUILD [--whole REASON] [--write].
+
+Costs are counted in units: processor seconds over those of a reference compile (reference.cpp) that was made
+in the same run, so that a busy or slow machine turns nothing red. RECORDS has stages.txt and reference.txt,
+lines of a name and seconds; BUILD, the release, has costs.txt (cost.cmake) and Ninja's log. Red a tenth above
+the budget (budget.toml), with the names of what grew. --write: this run's costs become those that a later one
+is compared with, here and in tests/README.md.
+"""
+
+import argparse
+import pathlib
+import re
+import statistics
+import sys
+import tomllib
+
+HERE = pathlib.Path(__file__).resolve().parent
+TABLE = re.compile(r"(<!-- table cost \(tests/cost\) -->\n\n).*?(\n<!-- end of table -->)", re.DOTALL)
+KEPT = 1.0  # Units: a test below that is not written down.
+GREW = 1.2  # Of what it was.
+
+
+def rows_of(file: pathlib.Path) -> dict[str, float]:
+    """Lines of a name and one or two numbers of seconds, user and system; what is there twice adds up."""
+    found: dict[str, float] = {}
+    for line in file.read_text(encoding="utf-8").splitlines() if file.exists() else ():
+        if match := re.match(r"(.+?) ([\d.]+)(?: ([\d.]+))?(?: [\d.]+)?$", line):
+            found[match[1]] = found.get(match[1], 0.0) + float(match[2]) + float(match[3] or 0)
+    return found
+
+
+def reference_s(file: pathlib.Path) -> float:
+    """Seconds of a unit: the median of at least three compiles."""
+    seconds = [sum(map(float, line.split())) for line in file.read_text(encoding="utf-8").splitlines()]
+    if len(seconds) < 3:
+        sys.exit(f"budget: {len(seconds)} reference compiles; three are wanted: the gate is dead")
+    return statistics.median(seconds)
+
+
+def units_of_build(log: pathlib.Path) -> dict[str, float]:
+    """Seconds that each object took, by Ninja's clock."""
+    found = {}
+    for line in log.read_text(encoding="utf-8").splitlines()[1:]:
+        begin, end, _, output, _ = line.split("\t")
+        if output.endswith((".o", ".gch")):
+            found[re.sub(r"CMakeFiles/|[.]dir(?=/)|[.]o$", "", output)] = (int(end) - int(begin)) / 1000.0
+    return found
+
+
+def dearest(rows: dict[str, float], count: int) -> list[tuple[str, float]]:
+    return sorted(rows.items(), key=lambda row: -row[1])[:count]
+
+
+def table(stages: dict, tests: dict, objects: dict, unit_s: float) -> str:
+    lines = [f"One unit is a compile of `tests/cost/reference.cpp`, {unit_s:.2f} processor seconds when this was made.", "",
+             "| | units | seconds |", "|---|---|---|"]
+    named = [("`./run`, fresh: build and one dig", stages.get("first sight", 0.0)), ("`./test`, fresh", sum(stages.values())),
+             *((f"stage: {name}", seconds) for name, seconds in dearest(stages, 6)),
+             *((f"test: `{name}`", seconds) for name, seconds in dearest(tests, 10)),
+             *((f"object: `{name}` (wall clock)", seconds) for name, seconds in dearest(objects, 5))]
+    lines += [f"| {name} | {seconds / unit_s:.0f} | {seconds:.0f} |" for name, seconds in named]
+    return "\n".join(lines) + "\n"
+
+
+def judged(budget: dict, stages: dict, tests: dict, unit_s: float) -> list[str]:
+    """What is above its budget, and what grew."""
+    problems = []
+    for name, seconds in (("first_sight", stages.get("first sight", 0.0)), ("test", sum(stages.values()))):
+        units, most = seconds / unit_s, budget["budget_units"][name]
+        print(f"cost: {name} {units:.0f} units ({seconds:.0f} s); the budget is {most}")
+        if units > 1.1 * most:
+            problems.append(f"cost: {name} took {units:.0f} units, a tenth above its budget of {most}")
+    before = budget.get("tests", {}) | {f"stage {name}": units for name, units in budget.get("stages", {}).items()}
+    now = tests | {f"stage {name}": seconds for name, seconds in stages.items()}
+    grown = sorted(((seconds / unit_s - before.get(name, 0.0), name) for name, seconds in now.items()
+                    if seconds / unit_s > max(KEPT, GREW * before.get(name, 0.0))), reverse=True)
+    if problems:
+        problems += [f"cost: {name} grew by {more:.0f} units, from {before.get(name, 0.0):.0f}" for more, name in grown[:20]]
+    return problems
+
+
+def write(budget: dict, stages: dict, tests: dict, objects: dict, unit_s: float) -> None:
+    text = "# Units that ./test may cost, and what it cost when they were last written (budget.py --write).\n"
+    text += "# A higher budget is a commit of its own, with its reason.\n\n[budget_units]\n"
+    text += "".join(f"{name} = {most}\n" for name, most in budget["budget_units"].items())
+    for name, rows in (("stages", stages), ("tests", tests)):
+        text += f"\n[{name}]\n" + "".join(
+            f'"{row}" = {seconds / unit_s:.1f}\n' for row, seconds in dearest(rows, len(rows)) if seconds / unit_s >= KEPT)
+    (HERE / "budget.toml").write_text(text, encoding="utf-8")
+    readme = HERE.parent / "README.md"
+    old = readme.read_text(encoding="utf-8")
+    new, count = TABLE.subn(lambda match: match[1] + table(stages, tests, objects, unit_s) + match[2], old)
+    if count != 1:
+        sys.exit("budget: tests/README.md has no place for the table")
+    readme.write_text(new, encoding="utf-8")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("records", type=pathlib.Path)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--budget", type=pathlib.Path, default=HERE / "budget.toml")
+    parser.add_argument("--whole", help="why more was run than on each day: the cost is said and not judged")
+    parser.add_argument("--write", action="store_true")
+    options = parser.parse_args()
+    budget = tomllib.loads(options.budget.read_text(encoding="utf-8"))
+    unit_s = reference_s(options.records / "reference.txt")
+    stages, tests = rows_of(options.records / "stages.txt"), rows_of(options.build / "costs.txt")
+    objects = units_of_build(options.build / ".ninja_log")
+    if not stages or not tests:
+        sys.exit("budget: no stages or no tests were counted: the gate is dead")
+    problems = judged(budget, stages, tests, unit_s)
+    print("dearest tests: " + ", ".join(f"{name} {seconds:.0f} s" for name, seconds in dearest(tests, 10)))
+    if options.write:
+        write(budget, stages, tests, objects, unit_s)
+    if options.whole and problems:
+        print(f"cost: NOT judged: {options.whole}")
+        return 0
+    print("\n".join(problems))
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
