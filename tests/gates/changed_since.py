@@ -62,7 +62,8 @@ def below(names: set[str], paths: list[str]) -> list[str]:
 
 
 def record(root: pathlib.Path, areas: list[str]) -> None:
-    if git(root, "status", "--porcelain").strip():
+    # Of the areas before, recorded in the same run.
+    if git(root, "status", "--porcelain", "--", ".", f":!{RECORD}").strip():
         sys.exit("changed_since.py: the work tree is not what was committed; nothing is recorded")
     file = root / RECORD
     rows = tomllib.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
