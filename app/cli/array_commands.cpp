@@ -110,7 +110,7 @@ std::string progress_line(const ArrayJob& job, const ArrayProgress& progress) {
 void wait_for(const std::string& summary) {
   ProgressBar bar("campaign");
   for (int idle_looks = 0;;) {
-    const ArrayJob job = read_array_job(summary);
+    ArrayJob job = read_array_job(summary);
     const ArrayProgress progress = progress_of(job);
     if (progress.is_merged) {
       return;
@@ -132,7 +132,7 @@ void show_progress(const ProgressCommand& options) {
   if (options.wait) {
     wait_for(options.summary);
   }
-  const ArrayJob job = read_array_job(options.summary);
+  ArrayJob job = read_array_job(options.summary);
   const ArrayProgress progress = progress_of(job);
   fmt::print("{}\n", progress_line(job, progress));
   if (!progress.is_merged && !progress.is_queued() && !progress.is_merging) {

@@ -172,8 +172,18 @@ ArrayJob read_array_job(const fs::path& summary) {
   return job;
 }
 
-ArrayProgress progress_of(const ArrayJob& job) {
+ArrayProgress progress_of(ArrayJob& job) {
   ArrayProgress progress;
+  // The queue before the rows: what has left it by now has written all that it will.
+  for (bool is_same = false; !is_same;) {
+    progress = {};
+    read_queue(job, progress);
+    // The job at the end may have submitted what was left, and gone, since `job` was read.
+    const bool is_there = fs::exists(array_folder(job.summary) / kFile);
+    const ArrayJob now = is_there ? read_array_job(job.summary) : job;
+    is_same = now.arrays == job.arrays && now.merge == job.merge;
+    job = now;
+  }
   for (unsigned shard = 1; shard <= job.shards; ++shard) {
     runs::CampaignOptions options;
     options.draws = job.draws;
@@ -185,8 +195,6 @@ ArrayProgress progress_of(const ArrayJob& job) {
       progress.left.push_back(shard);
     }
   }
-  read_queue(job, progress);
-  // Last: what has left the queue by now has written it.
   progress.is_merged = fs::exists(job.summary);
   return progress;
 }

@@ -50,8 +50,9 @@ struct ArrayProgress {
   [[nodiscard]] bool is_queued() const { return running + waiting > 0; }
 };
 
-/// Throws std::runtime_error where a shard's file or the queue cannot be read.
-[[nodiscard]] ArrayProgress progress_of(const ArrayJob& job);
+/// Brings `job` up to date where it was submitted again meanwhile. Throws std::runtime_error where
+/// a shard's file or the queue cannot be read.
+[[nodiscard]] ArrayProgress progress_of(ArrayJob& job);
 
 /// Writes the scripts and submits what is left, with the merge job after it. Throws
 /// std::runtime_error with sbatch's own words where it refuses.

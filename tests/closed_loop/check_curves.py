@@ -143,8 +143,8 @@ def what_cannot_be_driven_is_refused(graben, folder, curved):
 
 
 def main():
-    graben, machines = sys.argv[1:]
-    curved = os.path.join(machines, "curved.xml")
+    graben, machines, designs = sys.argv[1:]
+    curved = os.path.join(designs, "curved.xml")
     with tempfile.TemporaryDirectory() as folder:
         made_along_the_alignment(graben, folder, curved)
         passes_come_back_along_it(graben, folder, curved)

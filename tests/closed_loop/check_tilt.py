@@ -108,8 +108,8 @@ def what_cannot_be_made_is_refused(graben, folder, banked):
 
 
 def main():
-    graben, machines = sys.argv[1:]
-    banked = os.path.join(machines, "banked.xml")
+    graben, machines, designs = sys.argv[1:]
+    banked = os.path.join(designs, "banked.xml")
     with tempfile.TemporaryDirectory() as folder:
         made_within_the_tolerance(graben, folder, banked)
         ground_that_resists_is_cut_in_passes(graben, folder, banked)

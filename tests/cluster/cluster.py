@@ -109,28 +109,30 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         for node in NODES:
             self.start_node(node)
         self.wait_for(lambda: self.call("sinfo", "-h", "-o", "%D %t").stdout.split() == [str(len(NODES)), "idle"],
-                      "idle nodes", 60)
+                      "idle nodes")
 
     def start_controller(self):
+        """Until it answers: what asks it next has one answer only."""
         self.spawn("slurmctld", "slurmctld", "-D", "-f", self.environment["SLURM_CONF"])
+        self.wait_for(lambda: self.call("sinfo", "-h").returncode == 0, "controller that answers")
 
     def start_node(self, node):
         self.spawn(node, "slurmd", "-D", "-N", node, "-f", self.environment["SLURM_CONF"])
 
     def end(self, name):
         self.daemons[name].terminate()
-        self.daemons.pop(name).wait(30)
+        self.daemons.pop(name).wait(600)
 
     def kill(self, name):
         """With SIGKILL, as a machine that loses its power."""
         self.daemons[name].kill()
         self.daemons.pop(name).wait()
 
-    def call(self, *words, timeout=60):
+    def call(self, *words, timeout=600):
         return subprocess.run([program(words[0]) or words[0], *words[1:]], capture_output=True, text=True,
                               env=self.environment, timeout=timeout)
 
-    def wait_for(self, is_so, what, most_s=30):
+    def wait_for(self, is_so, what, most_s=600):
         until = time.monotonic() + most_s
         while not is_so():
             if time.monotonic() > until:
@@ -163,12 +165,17 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
             for daemon in self.daemons.values():
                 daemon.poll()
             time.sleep(0.2)
-        # What a killed node's daemon has left behind.
-        for process in self.own_processes(but):
+        # What a killed node's daemon has left behind; killed is not gone yet.
+        self.wait_for(lambda: not self.kill_all(self.own_processes(but)), "end of what was started")
+        for daemon in self.daemons.values():
+            daemon.wait()
+        self.daemons.clear()
+
+    @staticmethod
+    def kill_all(processes):
+        for process in processes:
             try:
                 os.kill(process, signal.SIGKILL)
             except ProcessLookupError:
                 pass
-        for daemon in self.daemons.values():
-            daemon.wait()
-        self.daemons.clear()
+        return processes

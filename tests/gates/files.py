@@ -20,11 +20,11 @@ COUNTED = (".cpp", ".hpp", ".py", ".ts")
 SMALL = ("tests/example_kind/", "12", "600")
 AREAS = (("firmware/",), ("hal/",), ("platform/",), ("app/",), ("can_dbc/", "toolchain/"), ("tests/",))
 
-# A home folder, or the server that a package came from. The brackets keep this file from
+# A home folder, or the server that a package came from, whoever's registry that is. The brackets keep this file from
 # matching itself.
 MACHINE = re.compile(
     r"(?<![\w.])/(?:roo[t]|hom[e]|User[s]|wor[k]|workspac[e])/"
-    r"|registr[y][.]npm|deb[.]debian[.]org|snapshot[.]debian|pypi[.]org|pythonhoste[d]|npmmirro[r]")
+    r"|(?<![\w.-])registr[y][.]\w|deb[.]debian[.]org|snapshot[.]debian|pypi[.]org|pythonhoste[d]|npmmirro[r]")
 
 parser = tree.arguments(__doc__)
 parser.add_argument("--small", nargs=3, default=SMALL, metavar=("FOLDER", "FILES", "LINES"),

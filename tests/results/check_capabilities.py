@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a machine can do without: the figures of results.json in the table of `graben check` and in the one of
+"""What a machine can do without: the figures of tests/README.md in the table of `graben check` and in the one of
 app/machines/README.md.
 
-  check_capabilities.py --check   both are what the data say
+  check_capabilities.py --check   both are what that has
   check_capabilities.py --write   writes both
 """
 
-import json
 import pathlib
 import re
 import sys
+
+import results as tables
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -19,7 +20,7 @@ BEGIN, END = "<!-- capabilities (tests/results/check_capabilities.py) -->", "<!-
 # In the order of the source's rows.
 KEYS = ("none", "imu", "slopes", "spool", "swash", "pressure", "zx200", "ls", "nfc")
 PLACES = (("22t", "dry"), ("22t", "soil"), ("12t", "dry"), ("12t", "soil"))
-# Rows that other tables have.
+# Runs that other tables have.
 ELSEWHERE = {"without_none_22t_dry": "draws_found", "without_none_22t_soil": "draws_soil_found",
              "without_slopes_12t_dry": "parts_slopes_12t"}
 COLUMNS = ("without", "stands in", "not seen any more", "22 t, dry", "22 t, soil", "12 t, dry", "12 t, soil")
@@ -30,8 +31,8 @@ FIGURES = re.compile(r'"[^"]*; [^"]*; [^"]*; [^"]*"(?=,\s*\[\])|"@\w+@"(?=,\s*\[
 def figure(results, key, place):
     """Median / 95th percentile, mm."""
     name = f"without_{key}_{place[0]}_{place[1]}"
-    row = results.get(ELSEWHERE.get(name, name))
-    return " / ".join(row["cells"][1].split(" / ")[:2]) if row else "-"
+    cells = results.get(ELSEWHERE.get(name, name))
+    return " / ".join(cells[1].split(" / ")[:2]) if cells else "-"
 
 
 def texts_of(row):
@@ -52,7 +53,8 @@ def wanted(results, source):
 
 
 def main():
-    results = json.loads((HERE / "results.json").read_text(encoding="utf-8"))
+    book = tables.Book(HERE / "rows.toml", ROOT / "tests/README.md")
+    results = {row.name: book.cells_of(row) for row in book.results}
     source, readme = SOURCE.read_text(encoding="utf-8"), README.read_text(encoding="utf-8")
     new_source, table = wanted(results, source)
     before, rest = readme.split(BEGIN)
@@ -66,7 +68,7 @@ def main():
         return 2
     stale = [path.name for path, old, new in ((SOURCE, source, new_source), (README, readme, new_readme)) if old != new]
     for name in stale:
-        print(f"{name}: not what the data say (check_capabilities.py --write)")
+        print(f"{name}: not what the tables have (check_capabilities.py --write)")
     return 1 if stale else 0
 
 

@@ -15,7 +15,7 @@ import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What a thorough run writes itself is no other state of the sources.
-WRITTEN = ("tests/README.md", "tests/results/results.json", "tests/timing/counts/observed.json",
+WRITTEN = ("tests/README.md", "tests/timing/counts/observed.json",
            "tests/memory/observed.toml")
 
 
@@ -77,11 +77,11 @@ def of_output(patterns: list[str], output: str) -> dict[str, float]:
 
 def command_of(run: dict, folder: pathlib.Path, build: pathlib.Path, each="") -> list[str]:
     """./run of a table is the tool itself here: nobody wants it to look for something to build."""
-    words = [word.replace("{folder}", str(folder)).replace("{each}", str(each))
+    words = [word.replace("{folder}", str(folder)).replace("{each}", str(each)).replace("build/release", str(build))
              for word in shlex.split(run["command"])]
     if words[0] == "./run" and words[1:2] != ["bench"]:
         return [str(build / "app/cli/graben"), *words[1:]]
-    return [word.replace("build/release", str(build)) for word in words]
+    return words
 
 
 def once(run: dict, folder: pathlib.Path, build: pathlib.Path, each="") -> dict[str, float]:

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The tables of results in tests/README.md: rows.toml says how each figure is made, results.json has the
-figures, a table stands between its markers.
+"""The tables of results in tests/README.md, which are the only place of the figures: rows.toml says how each
+is made. A sum at the end of a table tells that nobody wrote in it by hand.
 
-  results.py --check             the tables are what the data say; every row has a figure
-  results.py --write             writes the tables
-  results.py --make              makes every figure anew, writes data and tables (hours); begun again it
-                                 goes on with what is not in build/thorough yet
+  results.py --check             the tables are of the rows; every row has a figure
+  results.py --write             writes order, printed tables and sums anew, by the figures that are there
+  results.py --make              makes every figure anew and writes the tables (hours); begun again it goes on
+                                 with what is not in build/thorough yet
   results.py --make --only NAME  only the runs of rows.toml whose names match the expression
   results.py --quick             makes the figures that take seconds, and fails if one is another
 """
 
 import argparse
-import json
+import hashlib
 import pathlib
 import re
 import shlex
@@ -25,9 +25,15 @@ import measured
 
 HERE = pathlib.Path(__file__).resolve().parent
 PLACE = re.compile(r"\{([^{}|]+)\|([^{}|]*)\|([^{}|]+)\}")
+SPREAD = re.compile(r"\{([^{}|]+)\.spread\|([^{}|]*)\|([^{}|]+)\}")
+END = re.compile(r"<!-- end of table (\w+) -->")
 # Figures are in SI units; what a table shows them in.
 UNITS = {"": 1.0, "mm": 1e3, "%": 100.0, "MPa": 1e-6, "deg": 57.29577951308232, "s": 1.0, "us": 1e-3,
          "ms": 1e-6}
+
+
+def written_out(cell: str) -> str:
+    return SPREAD.sub(r"{\1.median|\2|\3} / {\1.p95|\2|\3} / {\1.max|\2|\3}", cell)
 
 
 def filled(cell: str, figures: dict[str, float]) -> str:
@@ -46,25 +52,51 @@ def shown_command(run: dict) -> str:
     return (f"`{words}`" if "`" not in words else words).replace("|", "\\|")
 
 
+def line_of(cells: list[str]) -> str:
+    return "| " + " | ".join(cells) + " |"
+
+
+def sum_of(lines: list[str]) -> str:
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:8]
+
+
+class Row:
+    def __init__(self, name: str, run: dict, cells: list[str]):
+        self.name, self.run, self.cells = name, run, [written_out(cell) for cell in cells]
+        # With any figures and any date.
+        words = ["[^|]+" if PLACE.search(cell) else re.escape(cell) for cell in self.cells]
+        self.line = re.compile(re.escape("| ") + re.escape(" | ").join([*words, re.escape(shown_command(run)), "[^|]+"])
+                               + re.escape(" |"))
+
+    def made(self, figures: dict[str, float], date: str) -> str:
+        return line_of([*(filled(cell, figures) for cell in self.cells), shown_command(self.run), date])
+
+
 class Book:
-    def __init__(self, rows: pathlib.Path, results: pathlib.Path, readme: pathlib.Path):
+    def __init__(self, rows: pathlib.Path, readme: pathlib.Path):
         definition = tomllib.loads(rows.read_text(encoding="utf-8"))
-        self.tables, self.runs, self.rows = (definition[key] for key in ("table", "run", "row"))
-        self.results_path, self.readme = results, readme
-        self.results = json.loads(results.read_text(encoding="utf-8"))
+        self.tables, self.runs = definition["table"], definition["run"]
+        self.rows = [Row(name, run, cells) for name, run in self.runs.items() for cells in run["rows"]]
+        self.readme = readme
+        self.there, self.sums = {}, {}
+        lines = readme.read_text(encoding="utf-8").splitlines()
+        for name, begin, end in self.parts():
+            self.there[name] = [line for line in lines[begin:end] if line]
+            self.sums[name] = END.fullmatch(lines[end])[1]
+        # Rows that differ in their figures alone stand in their order.
+        left = {name: list(lines) for name, lines in self.there.items()}
+        self.results = {}
+        for row in self.rows:
+            lines = left.get(row.run["table"], [])
+            if line := next(filter(row.line.fullmatch, lines), None):
+                lines.remove(line)
+                self.results[row] = line
 
     def problems_of_data(self) -> list[str]:
-        names = [row["name"] for row in self.rows]
-        problems = [f"{name}: twice in rows.toml" for name in sorted({n for n in names if names.count(n) > 1})]
-        problems += [f"{row['name']}: there is no table {row['table']} or no run {row['run']}"
-                     for row in self.rows if row["table"] not in self.tables or row["run"] not in self.runs]
-        problems += [f"{name}: no figure in results.json" for name in names if name not in self.results]
-        problems += [f"{name}: in results.json and not in rows.toml" for name in self.results
-                     if name not in names]
-        problems += [f"{row['name']}: other cells in results.json" for row in self.rows
-                     if len(self.results.get(row["name"], row)["cells"]) != len(row["cells"])]
-        used = {row["run"] for row in self.rows}
-        return problems + [f"run {name}: no row needs it" for name in self.runs if name not in used]
+        problems = [f"{name}: there is no table {run['table']}" for name, run in self.runs.items()
+                    if run["table"] not in self.tables]
+        return problems + [f"{row.name}: no figure in {self.readme.name} for '{row.cells[0]}'"
+                           for row in self.rows if row not in self.results]
 
     def lines_of(self, name: str) -> list[str]:
         table = self.tables[name]
@@ -72,18 +104,13 @@ class Book:
             done = subprocess.run(shlex.split(table["lines"]), cwd=measured.ROOT, check=True,
                                   stdout=subprocess.PIPE, text=True)
             return done.stdout.splitlines()
-        rows = [[*table["columns"], "command", "measured"]]
-        rows.append(["---"] * len(rows[0]))
-        for row in self.rows:
-            if row["table"] == name:
-                result = self.results[row["name"]]
-                rows.append([*self.cells_of(row), shown_command(self.runs[row["run"]]), result["date"]])
-        return ["| " + " | ".join(row) + " |" for row in rows]
+        head = [*table["columns"], "command", "measured"]
+        return [line_of(head), line_of(["---"] * len(head)),
+                *(line for row, line in self.results.items() if row.run["table"] == name)]
 
-    def cells_of(self, row: dict) -> list[str]:
-        """Words are those of rows.toml, figures those of results.json."""
-        kept = self.results[row["name"]]["cells"]
-        return [old if PLACE.search(cell) else cell for cell, old in zip(row["cells"], kept)]
+    def cells_of(self, row: Row) -> list[str]:
+        """As the table has them."""
+        return self.results[row][2:].split(" | ")[:len(row.cells)]
 
     def parts(self):
         """(name, begin, end) of the lines between each pair of markers."""
@@ -92,27 +119,25 @@ class Book:
         for number, line in enumerate(lines):
             if match := re.fullmatch(r"<!-- table (\w+)(?: .*)?-->", line):
                 name, begin = match[1], number + 1
-            elif line == "<!-- end of table -->" and begin is not None:
+            elif END.fullmatch(line) and begin is not None:
                 yield name, begin, number
                 begin = None
 
     def check(self) -> list[str]:
-        if problems := self.problems_of_data():
-            return problems
-        lines = self.readme.read_text(encoding="utf-8").splitlines()
-        there = {name: [line for line in lines[begin:end] if line] for name, begin, end in self.parts()}
-        problems = [f"{self.readme.name}: no markers of table {name}" for name in self.tables if name not in there]
-        problems += [f"{self.readme.name}: there is no table {name}" for name in there if name not in self.tables]
-        return problems + [f"{self.readme.name}: table {name} is not what the data say (--write)"
-                           for name in there if name in self.tables and there[name] != self.lines_of(name)]
+        problems = [f"{self.readme.name}: no markers of table {name}" for name in self.tables if name not in self.there]
+        problems += [f"{self.readme.name}: there is no table {name}" for name in self.there if name not in self.tables]
+        problems += self.problems_of_data()
+        return problems + [f"{self.readme.name}: table {name} is not what was made (--make, or --write if words alone changed)"
+                           for name, lines in self.there.items() if name in self.tables
+                           and (lines != self.lines_of(name) or self.sums[name] != sum_of(lines))]
 
     def write(self):
         lines = self.readme.read_text(encoding="utf-8").splitlines()
         for name, begin, end in reversed(list(self.parts())):
-            lines[begin:end] = ["", *self.lines_of(name), ""]
+            made = self.lines_of(name)
+            lines[begin:end + 1] = ["", *made, "", f"<!-- end of table {sum_of(made)} -->"]
+            self.there[name], self.sums[name] = made, sum_of(made)
         self.readme.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        ordered = {row["name"]: self.results[row["name"]] for row in self.rows if row["name"] in self.results}
-        self.results_path.write_text(json.dumps(ordered, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
     def wanted(self, only: str, quick: bool = False) -> list[str]:
         """Those that take least come first."""
@@ -120,22 +145,18 @@ class Book:
                  if re.fullmatch(only, name) and (run.get("quick") or not quick)]
         return sorted(names, key=lambda name: self.runs[name].get("minutes", 0.0))
 
-    def cells(self, run: str, figures: dict[str, float]):
-        for row in self.rows:
-            if row["run"] == run:
-                yield row, [filled(cell, figures) for cell in row["cells"]]
-
     def make(self, options) -> list[str]:
         options.state.mkdir(parents=True, exist_ok=True)
         problems = []
         for name in self.wanted(options.only):
             try:
                 state = measured.make(name, self.runs[name], options.state, options.build, options.again)
-                for row, cells in self.cells(name, state["figures"]):
-                    self.results[row["name"]] = {"cells": cells, "date": state["date"]}
+                self.results |= {row: row.made(state["figures"], state["date"]) for row in self.rows if row.name == name}
             except measured.Failure as failure:
                 problems.append(f"{name}: {failure}")
                 print(problems[-1], flush=True)
+        # In the order of the rows.
+        self.results = {row: self.results[row] for row in self.rows if row in self.results}
         self.write()
         return problems
 
@@ -144,9 +165,12 @@ class Book:
         for name in self.wanted(options.only, quick=True):
             with tempfile.TemporaryDirectory() as folder:
                 figures = measured.measure(self.runs[name], pathlib.Path(folder), options.build)
-            for row, cells in self.cells(name, figures):
-                if cells != (said := self.cells_of(row)) and not row.get("volatile"):
-                    problems.append(f"{row['name']}: {cells} now, {said} in results.json"
+            for row in self.rows:
+                if row.name != name or row.run.get("volatile"):
+                    continue
+                cells, said = [filled(cell, figures) for cell in row.cells], self.cells_of(row)
+                if cells != said:
+                    problems.append(f"{name}: {cells} now, {said} in {self.readme.name}"
                                     f" (results.py --make --only {name})")
         if not self.wanted(options.only, quick=True):
             problems.append("no run is quick: nothing was compared")
@@ -163,7 +187,6 @@ def arguments():
     parser.add_argument("--build", type=pathlib.Path, default=measured.ROOT / "build/release")
     parser.add_argument("--state", type=pathlib.Path, default=measured.ROOT / "build/thorough")
     parser.add_argument("--rows", type=pathlib.Path, default=HERE / "rows.toml")
-    parser.add_argument("--results", type=pathlib.Path, default=HERE / "results.json")
     parser.add_argument("--readme", type=pathlib.Path, default=HERE.parent / "README.md")
     options = parser.parse_args()
     if not options.action:
@@ -173,9 +196,10 @@ def arguments():
 
 def main() -> int:
     options = arguments()
-    book = Book(options.rows, options.results, options.readme)
+    book = Book(options.rows, options.readme)
     try:
-        if options.action == "write":
+        # Never over a figure whose row has other words: that would lose it.
+        if options.action == "write" and not book.problems_of_data():
             book.write()
         problems = {"check": book.check, "write": book.check, "make": lambda: book.make(options),
                     "quick": lambda: book.quick(options)}[options.action]()

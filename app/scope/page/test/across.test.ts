@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
+import {join} from 'node:path';
 import {test} from 'node:test';
 import {Vector3} from 'three';
 import type {DozerMachine, Vector2} from '../src/model/api';
@@ -95,14 +96,14 @@ test('a place beside a curved track is its station and offset', () => {
   near(track.place_of([-3, 0.2], 0, [1, 0])[1], 0.2, 1e-9, 'straight before it');
 });
 
-const MACHINES = `${process.env.GRABEN_DBC!}/../app/machines`;
+const DESIGNS = join(process.env.GRABEN_TOOL!, '../../../share/graben/designs');
 const tilting_run = (...design: string[]): Run =>
   run_of('grade', '--profile', 'dozer_9t_tilt', '--datum', '54.3', '--design', ...design);
 let made: readonly Run[] | undefined;
 /// Of curves and of a straight track, banked to both sides by turns.
 const runs = (): readonly Run[] => (made ??= [
-  tilting_run(`${MACHINES}/curved.xml`, '--alignment', 'way'),
-  tilting_run(`${MACHINES}/banked.xml`, '--track', '100,200,131,200')]);
+  tilting_run(`${DESIGNS}/curved.xml`, '--alignment', 'way'),
+  tilting_run(`${DESIGNS}/banked.xml`, '--track', '100,200,131,200')]);
 const dozer_of = ({setup}: Run): DozerMachine => setup.machines[0] as DozerMachine;
 
 test('both ends are off the design by what the controller says and the simulation knows', () => {
