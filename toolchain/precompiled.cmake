@@ -17,7 +17,8 @@ set(graben_precompiled <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath>
 
 # graben_as_one(TARGET [COUNT]): its sources are compiled in COUNT batches, two unless told, where headers are
 # precompiled: what templates they have in common are made once. Sources that call something alike are
-# never in the same batch (batches.py). Not for the core's release, whose objects are judged one by one.
+# never in the same batch (batches.py). Not on
+# other targets, where the core's objects are judged one by one.
 function(graben_as_one target)
   if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
     return()

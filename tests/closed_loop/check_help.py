@@ -266,6 +266,9 @@ def installed(graben, folder):
     (root / "usr/bin").mkdir(parents=True)
     moved = root / "usr/bin/graben"
     shutil.copy(graben, moved)
+    refused(moved, "graben-machine: not built; `./run pose` builds it", "pose", folder=folder)
+    (root / "usr/libexec/graben").mkdir(parents=True)
+    shutil.copy(pathlib.Path(graben).parent / "graben-machine", root / "usr/libexec/graben")
     pose = ("pose", "--profile", "excavator_22t", "--strokes", "1.0,1.1,0.4")
     refused(moved, "there is no such file", *pose, folder=folder)
     shutil.copytree(MACHINES, root / "usr/share/graben/machines")
