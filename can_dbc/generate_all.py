@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes all committed files that are made of the frames' sources and of the code tables, or says which have drifted.
+"""Writes what is made of the frames' sources and of the code tables, or says what has drifted.
 
-    generate_all.py [--check] [--root FOLDER]
+    generate_all.py [--check] [--root FOLDER]     what is committed: DBCs, the table in firmware/safety/README.md
+    generate_all.py --built FOLDER                what a build reads: codecs, the core's enums, its table of
+                                                  reactions, the texts of tool and scope
 
-From firmware/safety/faults.toml and limits.toml: the core's enums, its table of reactions, the texts of tool and
-scope, the table in firmware/safety/README.md. From can_dbc/*.dbc.in: DBCs and codecs.
+The sources are firmware/safety/faults.toml and limits.toml, and can_dbc/*.dbc.in.
 Exit codes: 0 done or unchanged, 1 drifted, 2 refused.
 """
 
@@ -22,35 +23,41 @@ KINDS = ("excavator", "dozer")
 STANDARDS = ("j1939", "zx200")  # Messages that are not ours.
 
 
-def outputs(root: pathlib.Path) -> list[tuple[pathlib.Path, str]]:
+def committed(root: pathlib.Path) -> dict[str, str]:
     """Each file with its text."""
-    table = codes.load(root / "firmware/safety")
-    manual = root / "firmware/safety/README.md"
-    frames = root / "can_dbc"
-    made = [
-        (root / "firmware/core/generated/codes.hpp", emit_codes.enums(table)),
-        (root / "firmware/safety/generated/fault_rows.hpp", emit_codes.rows(table)),
-        (root / "app/runs/generated/code_texts.hpp", emit_codes.texts(table)),
-        (root / "app/scope/page/src/model/generated/limits.ts", emit_codes.limits_of_page(table)),
-        (manual, emit_codes.readme(table, manual.read_text(encoding="utf-8"))),
-        (frames / "generated/common_dbc.hpp", generate.made(frames / "common.dbc.in", "common_dbc.hpp")),
-    ]
+    manual = "firmware/safety/README.md"
+    text = (root / manual).read_text(encoding="utf-8")
+    made = {manual: emit_codes.readme(codes.load(generate.CODES), text)}
     for kind in KINDS + STANDARDS:
-        for output in (frames / f"{kind}.dbc", frames / "generated" / f"{kind}_dbc.hpp"):
-            made.append((output, generate.made(frames / f"{kind}.dbc.in", output.name)))
+        made[f"can_dbc/{kind}.dbc"] = generate.made(root / f"can_dbc/{kind}.dbc.in", f"{kind}.dbc")
+    return made
+
+
+def built(root: pathlib.Path) -> dict[str, str]:
+    table = codes.load(generate.CODES)
+    made = {
+        "firmware/core/generated/codes.hpp": emit_codes.enums(table),
+        "firmware/safety/generated/fault_rows.hpp": emit_codes.rows(table),
+        "app/runs/generated/code_texts.hpp": emit_codes.texts(table),
+        "app/scope/page/src/model/generated/limits.ts": emit_codes.limits_of_page(table),
+    }
+    for name in ("common", *KINDS, *STANDARDS):
+        made[f"can_dbc/generated/{name}_dbc.hpp"] = generate.made(root / f"can_dbc/{name}.dbc.in", f"{name}_dbc.hpp")
     return made
 
 
 def main(words: list[str] | None = None) -> int:
-    arguments = argparse.ArgumentParser(description="All that is generated and committed")
+    arguments = argparse.ArgumentParser(description="All that is generated")
     arguments.add_argument("--check", action="store_true", help="compare instead of write")
     arguments.add_argument("--root", type=pathlib.Path, default=generate.HERE.parent)
+    arguments.add_argument("--built", type=pathlib.Path, help="write what a build reads into this folder")
     options = arguments.parse_args(words)
     # A copy of the tree has its own code tables.
     generate.CODES = options.root / "firmware/safety"
     try:
-        return max(generate.write_or_compare(text, file, options.check, "can_dbc/generate_all.py")
-                   for file, text in outputs(options.root))
+        files = built(options.root) if options.built else committed(options.root)
+        return max(generate.write_or_compare(text, (options.built or options.root) / name, options.check,
+                                             "can_dbc/generate_all.py") for name, text in files.items())
     except (source.SourceError, codes.CodeError, OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 2

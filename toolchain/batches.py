@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Which sources are compiled as one: batches.py COUNT ROOT SOURCE... prints the number of the batch of each
-source; there are COUNT of them, or as many as it takes.
+"""Which sources are compiled as one: batches.py COUNT ROOT[:ROOT] SOURCE... prints the number of the batch
+of each source; there are COUNT of them, or as many as it takes. Headers are found from the roots.
 
 Two sources are never in the same batch if they call something alike: what an unnamed namespace of one has,
 and anything that the other, or one of our headers that it reads, declares. So nobody has to choose a name
@@ -51,7 +51,7 @@ def read(path: pathlib.Path) -> tuple[frozenset[str], frozenset[str], tuple[str,
     return frozenset(own), frozenset(every), tuple(INCLUDE.findall(text))
 
 
-def reached(source: pathlib.Path, root: pathlib.Path) -> set[str]:
+def reached(source: pathlib.Path, roots: list[pathlib.Path]) -> set[str]:
     """All that the source and our headers that it reads declare."""
     seen, todo, found = set(), [source], set()
     while todo:
@@ -62,15 +62,15 @@ def reached(source: pathlib.Path, root: pathlib.Path) -> set[str]:
         _, every, headers = read(path)
         found |= every
         for header in headers:
-            todo += [path.parent / header, root / header]
+            todo += [folder / header for folder in (path.parent, *roots)]
     return found
 
 
 def main():
-    count, root = int(sys.argv[1]), pathlib.Path(sys.argv[2])
+    count, roots = int(sys.argv[1]), [pathlib.Path(name) for name in sys.argv[2].split(":")]
     sources = [pathlib.Path(name) for name in sys.argv[3:]]
     own = {source: read(source)[0] for source in sources}
-    every = {source: reached(source, root) for source in sources}
+    every = {source: reached(source, roots) for source in sources}
     most = -(-len(sources) // count)
     batches: list[list[pathlib.Path]] = []
     for source in sources:

@@ -39,7 +39,7 @@ function(graben_as_one target)
   # A source that calls something by another name may belong to another batch.
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${batched})
   execute_process(COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/toolchain/batches.py ${count}
-      ${PROJECT_SOURCE_DIR} ${batched}
+      ${PROJECT_SOURCE_DIR}:${graben_generated} ${batched}
     OUTPUT_VARIABLE batches OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE "\n" ";" batches "${batches}")
   foreach(source batch IN ZIP_LISTS batched batches)

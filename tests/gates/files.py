@@ -39,7 +39,7 @@ for name in names:
         continue
     lines = data.decode("utf-8", errors="replace").splitlines()
     length = len(lines) - sum(LICENCE in line for line in lines[:3])
-    if name.endswith(SOURCES) and not tree.is_generated(name):
+    if name.endswith(SOURCES):
         if length > MAX_LINES:
             problems.append(f"{name}: {length} lines; {MAX_LINES} is the most")
         if name.endswith(COUNTED):

@@ -29,8 +29,11 @@ class Includes:
     """The sources of a tree, and for each its (line, header, quoted), a quoted header as a path from
     the root."""
 
-    def __init__(self, root: pathlib.Path):
+    def __init__(self, root: pathlib.Path, generated: pathlib.Path | None = None):
+        """What the build has made lies in a folder of its own, by the same names."""
         self.sources = {n: (root / n).read_text() for n in tree.files(root) if n.endswith(tree.CXX)}
+        if generated:
+            self.sources |= {n: (generated / n).read_text() for n in tree.walk(generated) if n.endswith(tree.CXX)}
         self.of = {name: list(self._read(name, text)) for name, text in self.sources.items()}
 
     def _read(self, name: str, text: str):

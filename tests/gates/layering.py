@@ -49,8 +49,8 @@ PLANT_SEES = ("firmware/core/", "firmware/machine/", "firmware/numeric/constants
               "firmware/numeric/monotone_table.hpp", "firmware/signals/")
 PLANT_SEES_OF_A_WING = ("{0}/{0}_profile.hpp", "{0}/{0}_signals.hpp")
 
-root = tree.arguments(__doc__).parse_args().root.resolve()
-includes = Includes(root)
+arguments = tree.arguments(__doc__).parse_args()
+includes = Includes(arguments.root.resolve(), arguments.generated)
 
 # A folder of the core with a controller is a machine kind's wing. It never sees another one, and what is
 # common sees none.

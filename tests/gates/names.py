@@ -52,7 +52,8 @@ def findings(text: str):
             yield line(match), match[0], None, wrong
 
 
-includes = Includes(tree.arguments(__doc__).parse_args().root.resolve())
+arguments = tree.arguments(__doc__).parse_args()
+includes = Includes(arguments.root.resolve(), arguments.generated)
 problems, looked_at = [], 0
 for source, text in includes.sources.items():
     if not source.startswith(FREESTANDING):

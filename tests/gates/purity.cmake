@@ -42,6 +42,6 @@ get_target_property(eigen_folder Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 get_directory_property(target_options COMPILE_OPTIONS)
 set(target_compiler -- ${CMAKE_CXX_COMPILER} ${target_options} -isystem ${eigen_folder}
   -DEIGEN_NO_MALLOC -DEIGEN_DONT_VECTORIZE)
-graben_gate(shadow --root ${PROJECT_SOURCE_DIR} ${target_compiler})
+graben_gate(shadow --root ${PROJECT_SOURCE_DIR} ${target_compiler} -I${graben_generated})
 graben_canary(shadow "<map> is not for the core.*<sys/time.h> is not.*<vector> is not"
   ${python} ${gates}/shadow.py --root ${seeds}/shadow ${target_compiler})
