@@ -41,7 +41,7 @@ def run(graben, cell, law, folder):
     name = folder / "_".join(map(str, cell))
     summary = pathlib.Path(f"{name}.json")
     done = subprocess.run([graben, "dig", *law, "--found", found(cell), "--out", str(name), "--summary", str(summary)],
-                          capture_output=True, text=True, timeout=300, check=False)
+                          capture_output=True, text=True, check=False)
     if done.returncode not in (0, 1) or not summary.exists():
         raise RuntimeError(f"{found(cell)}: status {done.returncode}: {done.stderr.strip()[-300:]}")
     figures = json.loads(summary.read_text(encoding="utf-8"))

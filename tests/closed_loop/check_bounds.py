@@ -60,7 +60,7 @@ def rows(graben, folder, options, draws):
         os.remove(file)
     errors = () if "--errors" in options else ("--errors", "kim")
     done = subprocess.run([graben, "campaign", "dig", "--draws", str(draws), "--summary", file,
-                           *errors, *options], capture_output=True, text=True, timeout=240)
+                           *errors, *options], capture_output=True, text=True)
     assert done.returncode == 0, f"{options}: {done.stderr}"
     with open(file, encoding="ascii") as stream:
         return list(csv.DictReader(line for line in stream if not line.startswith("#")))

@@ -180,7 +180,7 @@ def compared_with_constant_speeds(graben):
 def drawn_designs(graben, folder, draws, seed):
     summary = os.path.join(folder, f"designs{seed}.csv")
     done = subprocess.run([graben, "campaign", "designs", "--draws", str(draws), "--seed", str(seed), "--summary",
-                           summary, "--jobs", "1"], capture_output=True, text=True, timeout=280)
+                           summary, "--jobs", "1"], capture_output=True, text=True)
     print(done.stdout)
     assert done.returncode == 0, done.stdout + done.stderr
     with open(summary, encoding="utf-8") as stream:
@@ -214,7 +214,7 @@ def ground_that_resists(graben, folder):
     for seed, soil in GROUND:
         summary = os.path.join(folder, f"ground{seed}.csv")
         done = subprocess.run([graben, "campaign", "ground", "--draws", "1", "--seed", str(seed), "--summary", summary,
-                               "--jobs", "1"], capture_output=True, text=True, timeout=280)
+                               "--jobs", "1"], capture_output=True, text=True)
         print(done.stdout)
         assert done.returncode == 0, done.stdout + done.stderr
         row = re.search(rf"(?m)^trench, walls of 1 m +{soil} +1 +0((?: +[\d.]+)+)$", done.stdout)

@@ -16,7 +16,7 @@ DRAWS = {"excavator_12t": (20, 6), "excavator_22t": (120, 90)}
 def rows_of(graben, profile, draws, folder):
     file = os.path.join(folder, f"{profile}.csv")
     subprocess.run([graben, "campaign", "fences", "--profile", profile, "--draws", str(draws), "--summary", file,
-                    "--jobs", "1"], capture_output=True, timeout=800, check=False)
+                    "--jobs", "1"], capture_output=True, check=False)
     with open(file, newline="", encoding="utf-8") as stream:
         assert stream.readline().startswith(f"# fences {profile} ")
         return list(csv.DictReader(stream))

@@ -21,7 +21,7 @@ CURVES = {"kim9": 3, "kim10": 2, "kim11": 1, "kim12": 3, "kim13": 6, "kim14": 2,
 
 
 def call(graben, *words, status=0):
-    done = subprocess.run([graben, *map(str, words)], capture_output=True, text=True, timeout=300)
+    done = subprocess.run([graben, *map(str, words)], capture_output=True, text=True)
     assert done.returncode == status, f"{words}: status {done.returncode}: {done.stdout}{done.stderr}"
     return done.stdout + done.stderr
 

@@ -82,7 +82,7 @@ def write(path, rows, columns=None):
 
 
 def call(graben, *arguments):
-    return subprocess.run([graben, "identify", *map(str, arguments)], capture_output=True, text=True, timeout=600)
+    return subprocess.run([graben, "identify", *map(str, arguments)], capture_output=True, text=True)
 
 
 def refused(graben, needle, *arguments, status=1):

@@ -13,7 +13,7 @@ SILENT_ARM = "0CF02AE3#"  # angular rates of address 227
 
 
 def refused(graben, folder, words, *options):
-    done = subprocess.run([graben, "measure-up", *options], capture_output=True, text=True, timeout=280, cwd=folder,
+    done = subprocess.run([graben, "measure-up", *options], capture_output=True, text=True, cwd=folder,
                           check=False)
     assert done.returncode != 0, f"{options}: not refused: {done.stdout}"
     for word in words:

@@ -31,7 +31,7 @@ BOUNDS = {"median": 30 * MM, "p95": 45 * MM}
 
 
 def call(graben, folder, *words):
-    done = subprocess.run([graben, *words], capture_output=True, text=True, timeout=280, cwd=folder, check=False)
+    done = subprocess.run([graben, *words], capture_output=True, text=True, cwd=folder, check=False)
     assert done.returncode == 0, f"{words}: status {done.returncode}: {done.stderr}"
     return done.stdout
 
@@ -53,7 +53,7 @@ def touched(graben, folder, *options):
 def error_m(graben, folder, profile, *options):
     """NaN where it does not come round."""
     done = subprocess.run([graben, "dig", "--profile", profile, "--simulated", "mine.sim.toml", "--out", "out", *options],
-                          capture_output=True, text=True, timeout=280, cwd=folder, check=False)
+                          capture_output=True, text=True, cwd=folder, check=False)
     found = re.search(r"^path error of the true tip, max +([0-9.]+) mm", done.stdout, re.MULTILINE)
     return float(found.group(1)) * MM if done.returncode == 0 else float("nan")
 

@@ -65,7 +65,7 @@ def as_found(profile, seed, folder, bands):
 def run_campaign(graben, command, profile, seed, folder):
     summary = folder / "campaign.csv"
     done = subprocess.run([graben, *command, "--profile", profile, "--draws", "1", "--jobs", "1", "--seed",
-                           str(seed), "--summary", str(summary)], capture_output=True, text=True, timeout=600,
+                           str(seed), "--summary", str(summary)], capture_output=True, text=True,
                           check=False)
     if not summary.exists():
         return f"status {done.returncode}: {done.stderr.strip()[-200:]}"
@@ -75,7 +75,7 @@ def run_campaign(graben, command, profile, seed, folder):
 
 def run_task(graben, command, profile, seed, folder):
     done = subprocess.run([graben, *command, "--profile", profile, "--errors", "kim", "--seed", str(seed), "--out",
-                           str(folder)], capture_output=True, text=True, timeout=600, check=False)
+                           str(folder)], capture_output=True, text=True, check=False)
     if done.returncode == 0:
         return "done"
     if "not finished in time" in done.stderr:

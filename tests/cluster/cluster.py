@@ -128,9 +128,9 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         self.daemons[name].kill()
         self.daemons.pop(name).wait()
 
-    def call(self, *words, timeout=600):
+    def call(self, *words):
         return subprocess.run([program(words[0]) or words[0], *words[1:]], capture_output=True, text=True,
-                              env=self.environment, timeout=timeout)
+                              env=self.environment)
 
     def wait_for(self, is_so, what, most_s=600):
         until = time.monotonic() + most_s

@@ -21,7 +21,7 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 def call(graben, *words, status=0, path=None):
     environment = {**os.environ, "PATH": path} if path else None
-    done = subprocess.run([graben, *map(str, words)], capture_output=True, text=True, timeout=500, env=environment)
+    done = subprocess.run([graben, *map(str, words)], capture_output=True, text=True, env=environment)
     assert done.returncode == status, f"{words}: status {done.returncode}: {done.stdout}{done.stderr}"
     return done.stdout + done.stderr
 

@@ -160,7 +160,7 @@ def is_changed(name: str, body: str) -> bool:
 
 
 parser = tree.arguments(__doc__)
-parser.add_argument("--limit", type=float, default=300, help="seconds that a block may take")
+parser.add_argument("--limit", type=float, default=3000, help="seconds that a block may take")
 parser.add_argument("--changed", action="store_true",
                     help="only blocks that changed since the last whole run, or whose commands did; the others are counted")
 parser.add_argument("--build", type=pathlib.Path, help="the build whose tests need not run again")

@@ -18,7 +18,7 @@ LEAST_SHARE = 0.5
 
 
 def run(command):
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, timeout=300, check=False)
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
     found = re.search(r"stack (\d+)\nframes (\d+) differing (\d+)\n", done.stdout)
     if done.returncode != 0 or not found:
         raise Refusal(f"{' '.join(command)}: status {done.returncode}, {done.stdout!r}")

@@ -38,7 +38,7 @@ class Root:
                        "DEBIAN_FRONTEND": "noninteractive"}
         done = subprocess.run(["chroot", str(self.path), *command], env=environment, check=False,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True,
-                              stderr=subprocess.STDOUT, timeout=300)
+                              stderr=subprocess.STDOUT)
         return done.returncode, done.stdout
 
     def expect(self, status: int, words: list[str], *command: str) -> str:

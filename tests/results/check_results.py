@@ -77,6 +77,11 @@ assert all(line in written for line in WANTED), written
 expect(0, action="--check")
 expect(0, "3 rows, 0 problems", action="--quick")
 
+expect(0, "first: sh", action="--make --again --part 1/2")
+expect(0, "draws: sh", action="--make --again --part 2/2")
+assert counted.read_text() == "ran\n" * 3, "the second part is not the second run alone"  # --quick ran it too.
+assert readme.read_text() == written
+
 for wrong in (written.replace("12.5", "12.4"), written.replace("| of a campaign", "| a campaign"),
               written.replace("<!-- table speed (tests) -->", "")):
     readme.write_text(wrong)

@@ -8,6 +8,7 @@ is made. A sum at the end of a table tells that nobody wrote in it by hand.
   results.py --make              makes every figure anew and writes the tables (hours); begun again it goes on
                                  with what is not in build/thorough yet
   results.py --make --only NAME  only the runs of rows.toml whose names match the expression
+  results.py --make --part P/N   of those, sorted by what they take, every Nth, beginning with the Pth
   results.py --quick             makes the figures that take seconds, and fails if one is another
 """
 
@@ -148,7 +149,8 @@ class Book:
     def make(self, options) -> list[str]:
         options.state.mkdir(parents=True, exist_ok=True)
         problems = []
-        for name in self.wanted(options.only):
+        part, parts = map(int, options.part.split("/"))
+        for name in self.wanted(options.only)[part - 1::parts]:
             try:
                 state = measured.make(name, self.runs[name], options.state, options.build, options.again)
                 self.results |= {row: row.made(state["figures"], state["date"]) for row in self.rows if row.name == name}
@@ -183,6 +185,7 @@ def arguments():
     for action in ("check", "write", "make", "quick"):
         parser.add_argument(f"--{action}", dest="action", action="store_const", const=action, required=False)
     parser.add_argument("--only", default=".*", metavar="NAME")
+    parser.add_argument("--part", default="1/1", metavar="P/N")
     parser.add_argument("--again", action="store_true", help="also what is in the state folder already")
     parser.add_argument("--build", type=pathlib.Path, default=measured.ROOT / "build/release")
     parser.add_argument("--state", type=pathlib.Path, default=measured.ROOT / "build/thorough")
