@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-# What each test costs: GNU time writes its processor seconds into costs.txt of the build folder, a line a
-# test (tests/cost/budget.py reads them). Not on another target, where an emulator runs the tests.
+# CMake's add_test with two things more: the label `thorough` of what ./test leaves out (tests/thorough.cmake), and,
+# with GRABEN_COSTS, the command behind GNU time, which writes its processor seconds into costs.txt of the build
+# folder, a line a test (budget.py reads them). Not on another target, where an emulator runs the tests.
 
-set(graben_costs ${PROJECT_BINARY_DIR}/costs.txt)
-find_program(GRABEN_TIME time PATHS /usr/bin NO_DEFAULT_PATH)
-if(CMAKE_CROSSCOMPILING OR NOT GRABEN_TIME)
+if(CMAKE_CROSSCOMPILING)
   return()
 endif()
+set(graben_time)
+if(GRABEN_COSTS)
+  find_program(GRABEN_TIME time PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+  set(graben_time ${GRABEN_TIME} -q -a -o ${PROJECT_BINARY_DIR}/costs.txt -f)
+endif()
 
-# CMake's own, with the command behind GNU time.
 function(add_test)
   cmake_parse_arguments(PARSE_ARGV 0 of "COMMAND_EXPAND_LISTS" "NAME;WORKING_DIRECTORY" "CONFIGURATIONS;COMMAND")
   list(GET of_COMMAND 0 program)
@@ -27,6 +30,14 @@ function(add_test)
   if(of_COMMAND_EXPAND_LISTS)
     list(APPEND more COMMAND_EXPAND_LISTS)
   endif()
-  _add_test(NAME ${of_NAME} ${more}
-    COMMAND ${GRABEN_TIME} -q -a -o ${graben_costs} -f "${of_NAME} %U %S %e" ${of_COMMAND})
+  set(behind)
+  if(graben_time)
+    set(behind ${graben_time} "${of_NAME} %U %S %e")
+  endif()
+  _add_test(NAME ${of_NAME} ${more} COMMAND ${behind} ${of_COMMAND})
+  get_property(left_out GLOBAL PROPERTY graben_thorough)
+  if(of_NAME IN_LIST left_out)
+    # At the folder's end: it may set labels of its own.
+    cmake_language(EVAL CODE "cmake_language(DEFER CALL set_property TEST ${of_NAME} APPEND PROPERTY LABELS thorough)")
+  endif()
 endfunction()

@@ -17,6 +17,10 @@ PROFILES = HERE.parents[1] / "app" / "machines"
 def run(script: str, out: pathlib.Path, programs: list[pathlib.Path],
         check: Callable[[pathlib.Path], list[str]], timeout_s: float, controllers: int = 0,
         extra: dict[str, pathlib.Path] | None = None, modules: tuple[str, ...] = ()) -> int:
+    # Behind graben, what the guests' scripts call: plant, operate, commission; and the scope where it is tried.
+    for graben in [program for program in programs if program.name == "graben"]:
+        behind = ("graben-bus", "graben-scope") if script == "scope.sh" else ("graben-bus",)
+        programs = [*programs, *(graben.with_name(name) for name in behind)]
     scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers, modules=modules,
                         timeout_s=timeout_s, patience_s=max(1200.0, 8.0 * timeout_s),
                         files={"ecu.sh": HERE / "ecu.sh", **(extra or {}),

@@ -156,12 +156,13 @@ def libraries_beyond(root_tar: pathlib.Path, program: pathlib.Path) -> dict[str,
 
 def main() -> int:
     package, graben, out = map(pathlib.Path, sys.argv[1:])
+    graben = graben.with_name("graben-bus")  # It has the command plant.
     try:
         roots = debian_root.fetch()
         scenario = Scenario(
             script=HERE / "service.sh", controllers=2, root=roots / "service.cpio", timeout_s=120.0,
             patience_s=1200.0,
-            files={"graben-ecu.deb": package, "graben": graben, PROFILE.name: PROFILE, SIMULATION.name: SIMULATION,
+            files={"graben-ecu.deb": package, "graben-bus": graben, PROFILE.name: PROFILE, SIMULATION.name: SIMULATION,
                    **libraries_beyond(roots / "service.tar", graben)})
         result = guest.run(scenario, out, where="vm")
     except Nowhere as reason:

@@ -71,7 +71,7 @@ note killed
 
 # Stopped while it digs.
 # Before what looks at it: a machine whose frames are late is stopped.
-nice -n -15 ./graben plant --can can1 --profile excavator_22t.toml --operator dig >"$OUT/plant" 2>&1 &
+nice -n -15 ./graben-bus plant --can can1 --profile excavator_22t.toml --operator dig >"$OUT/plant" 2>&1 &
 plant=$!
 wait_until 15 mode_is 3 || fail 'it does not dig'
 sleep 1
