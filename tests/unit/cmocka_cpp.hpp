@@ -56,6 +56,20 @@ struct Registered {
   Registered* next = nullptr;
 };
 
+template <class Test, class Kind>
+const char* name_of() noexcept {
+  return __PRETTY_FUNCTION__;
+}
+
+/// The same test of several kinds, one after the other.
+template <class Test, class... Kinds>
+struct RegisteredForEach {
+  explicit RegisteredForEach(const char* source) noexcept
+      : each{{name_of<Test, Kinds>(), source, Test::template run<Kinds>}...} {}
+
+  Registered each[sizeof...(Kinds)];
+};
+
 /// Runs the tests of one source, in their order there. A source without any fails.
 inline int run_source(const char* file, CMFixtureFunction setup, CMFixtureFunction teardown) {
   std::vector<CMUnitTest> tests;
@@ -78,6 +92,17 @@ inline int run_source(const char* file, CMFixtureFunction setup, CMFixtureFuncti
   static void name(void**);                                                      \
   static const graben::test::Registered name##_is_a_test(#name, __FILE__, name); \
   static void name(void**)
+
+/// TEST_FOR_EACH(name, Kind, One, Other...) { ... }: a test of each of these types, which its body
+/// knows as Kind.
+#define TEST_FOR_EACH(name, Kind, ...)                                                        \
+  struct name {                                                                               \
+    template <class Kind>                                                                     \
+    static void run(void**);                                                                  \
+  };                                                                                          \
+  static const graben::test::RegisteredForEach<name, __VA_ARGS__> name##_is_a_test(__FILE__); \
+  template <class Kind>                                                                       \
+  void name::run(void**)
 
 /// The end of a source with tests. WITHIN: between a function before the first and one after the
 /// last.

@@ -189,6 +189,11 @@ void check_saturation_and_refusal(const Scales& scales) {
   });
 }
 
+template <class Message>
+void assert_encodes(const Message& message, const Payload& bytes) {
+  assert_memory_equal(message.encode().data(), bytes.data(), bytes.size());
+}
+
 // What nobody has filled in carries the start values.
 template <class Messages>
 void check_start_values() {

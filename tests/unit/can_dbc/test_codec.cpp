@@ -78,14 +78,13 @@ TEST(plain_numbers) {
   status.mode.value = bus::EcuStatus::Mode::kFault;
   assert_int_equal(sent(status, bus::EcuStatus::kMode), 5);
   const bus::EcuIdentity identity{{0xDEADBEEFU, RawState::kValid}, {1U, RawState::kValid}};
-  const Payload expected{0xEF, 0xBE, 0xAD, 0xDE, 0x01, 0xFF, 0xFF, 0xFF};
-  assert_memory_equal(identity.encode().data(), expected.data(), expected.size());
+  assert_encodes(identity, {0xEF, 0xBE, 0xAD, 0xDE, 0x01, 0xFF, 0xFF, 0xFF});
 }
 
 // Positions, byte for byte, as the DBC gives them.
 TEST(known_payloads) {
   const Payload neutral{0xFF, 0x0F, 0x00, 0x7D, 0x00, 0x7D, 0x00, 0x7D};
-  assert_memory_equal(bus::SpoolCommand{}.encode().data(), neutral.data(), neutral.size());
+  assert_encodes(bus::SpoolCommand{}, neutral);
 
   bus::SpoolCommand command;
   command.enable.value = bus::SpoolCommand::Enable::kOn;
@@ -93,20 +92,17 @@ TEST(known_payloads) {
   command.arm_duty_ratio.value = -1.0;
   command.bucket_duty_ratio.value = 0.00005;
   const Payload moving{0xFF, 0x1F, 0x20, 0xCB, 0xE0, 0x2E, 0x01, 0x7D};
-  assert_memory_equal(command.encode().data(), moving.data(), moving.size());
+  assert_encodes(command, moving);
 
   bus::SwingCommand swing;
-  const Payload held{0xFF, 0xCF, 0x00, 0x7D, 0xFF, 0xFF, 0xFF, 0xFF};
-  assert_memory_equal(swing.encode().data(), held.data(), held.size());
+  assert_encodes(swing, {0xFF, 0xCF, 0x00, 0x7D, 0xFF, 0xFF, 0xFF, 0xFF});
   swing.enable.value = bus::SwingCommand::Enable::kOn;
   swing.swing_duty_ratio.value = -1.0;
-  const Payload right{0xFF, 0xDF, 0xE0, 0x2E, 0xFF, 0xFF, 0xFF, 0xFF};
-  assert_memory_equal(swing.encode().data(), right.data(), right.size());
+  assert_encodes(swing, {0xFF, 0xDF, 0xE0, 0x2E, 0xFF, 0xFF, 0xFF, 0xFF});
 
   command = {};
   command.pilot_cut.value = bus::SpoolCommand::PilotCut::kOn;
-  const Payload cut{0xFF, 0x4F, 0x00, 0x7D, 0x00, 0x7D, 0x00, 0x7D};
-  assert_memory_equal(command.encode().data(), cut.data(), cut.size());
+  assert_encodes(command, {0xFF, 0x4F, 0x00, 0x7D, 0x00, 0x7D, 0x00, 0x7D});
 
   const bus::EEC1 engine = bus::EEC1::decode({0xFF, 0xFF, 0xFF, 0x80, 0x3E, 0xFF, 0xFF, 0xFF});
   assert_near(engine.engine_speed_radps.value, 2000.0 * 2.0 * kPi / 60.0, 1e-9);
@@ -126,10 +122,8 @@ TEST(known_payloads) {
   trouble.spn_high.value = 7;
   trouble.fmi.value = 19;
   trouble.occurrence_count.value = 3;
-  const Payload dm1{0x10, 0xFF, 0x0C, 0xF0, 0xF3, 0x03, 0xFF, 0xFF};
-  assert_memory_equal(trouble.encode().data(), dm1.data(), dm1.size());
-  const Payload no_trouble{0x00, 0xFF, 0x00, 0x00, 0x00, 0x00, 0xFF, 0xFF};
-  assert_memory_equal(bus::DM1{}.encode().data(), no_trouble.data(), no_trouble.size());
+  assert_encodes(trouble, {0x10, 0xFF, 0x0C, 0xF0, 0xF3, 0x03, 0xFF, 0xFF});
+  assert_encodes(bus::DM1{}, {0x00, 0xFF, 0x00, 0x00, 0x00, 0x00, 0xFF, 0xFF});
 
   // Neutral and full scale are exact: 0 is neutral, and a ratio of 1 is not above 1.
   const bus::SpoolCommand back = bus::SpoolCommand::decode(moving);

@@ -56,30 +56,27 @@ TEST(saturates_and_refuses) { check_saturation_and_refusal<bus::AllMessages>(kSc
 
 // Positions, byte for byte, as the DBC gives them.
 TEST(known_payloads) {
-  const Payload neutral{0xFF, 0x0F, 0x00, 0x7D, 0xFF, 0xFF, 0xFF, 0xFF};
-  assert_memory_equal(bus::SpoolCommand{}.encode().data(), neutral.data(), neutral.size());
+  assert_encodes(bus::SpoolCommand{}, {0xFF, 0x0F, 0x00, 0x7D, 0xFF, 0xFF, 0xFF, 0xFF});
   const Payload held{0xFF, 0xDF, 0x00, 0x7D, 0x00, 0x7D, 0xFF, 0xFF};
-  assert_memory_equal(bus::PumpDisplacementCommand{}.encode().data(), held.data(), held.size());
+  assert_encodes(bus::PumpDisplacementCommand{}, held);
   const Payload full{0xFF, 0xFF, 0x50, 0xC3, 0x50, 0xC3, 0xFF, 0xFF};
-  assert_memory_equal(bus::MotorDisplacementCommand{}.encode().data(), full.data(), full.size());
+  assert_encodes(bus::MotorDisplacementCommand{}, full);
 
   bus::SpoolCommand spool;
   spool.enable.value = bus::SpoolCommand::Enable::kOn;
   spool.pilot_cut.value = bus::SpoolCommand::PilotCut::kOn;
   spool.blade_duty_ratio.value = -1.0;
-  const Payload lifting{0xFF, 0x5F, 0xE0, 0x2E, 0xFF, 0xFF, 0xFF, 0xFF};
-  assert_memory_equal(spool.encode().data(), lifting.data(), lifting.size());
+  assert_encodes(spool, {0xFF, 0x5F, 0xE0, 0x2E, 0xFF, 0xFF, 0xFF, 0xFF});
   // Without a tilt its bytes are those of an unused field.
   spool.tilt_duty_ratio = {0.5, RawState::kValid};
-  const Payload tilting{0xFF, 0x5F, 0xE0, 0x2E, 0x10, 0xA4, 0xFF, 0xFF};
-  assert_memory_equal(spool.encode().data(), tilting.data(), tilting.size());
+  assert_encodes(spool, {0xFF, 0x5F, 0xE0, 0x2E, 0x10, 0xA4, 0xFF, 0xFF});
 
   bus::PumpDisplacementCommand pumps;
   pumps.brake.value = bus::PumpDisplacementCommand::Brake::kOff;
   pumps.left_pump_ratio.value = 1.0;
   pumps.right_pump_ratio.value = -1.0;
   const Payload turning{0xFF, 0xCF, 0x20, 0xCB, 0xE0, 0x2E, 0xFF, 0xFF};
-  assert_memory_equal(pumps.encode().data(), turning.data(), turning.size());
+  assert_encodes(pumps, turning);
 
   // 12.3456 m along, 0.5 m below.
   const bus::BodyPosition body =

@@ -111,8 +111,7 @@ struct Rig {
   }
 };
 
-template <class Kind>
-void the_ports_state_is_the_buss(void**) {
+TEST_FOR_EACH(the_ports_state_is_the_buss, Kind, Excavator, Dozer) {
   const std::pair<CanPortState, BusState> states[] = {
       {CanPortState::kActive, BusState::kActive}, {CanPortState::kErrorPassive, BusState::kPassive},
       {CanPortState::kBusOff, BusState::kOff},    {CanPortState::kDown, BusState::kDown},
@@ -127,8 +126,7 @@ void the_ports_state_is_the_buss(void**) {
   }
 }
 
-template <class Kind>
-void a_port_that_is_down_is_tried_every_200_ms(void**) {
+TEST_FOR_EACH(a_port_that_is_down_is_tried_every_200_ms, Kind, Excavator, Dozer) {
   Rig<Kind> rig;
   assert_int_equal(rig.step().bus, BusState::kActive);
   rig.port.shown = CanPortState::kDown;
@@ -148,8 +146,7 @@ void a_port_that_is_down_is_tried_every_200_ms(void**) {
 }
 
 // Back by itself: what queued up meanwhile is thrown away at once.
-template <class Kind>
-void a_port_that_comes_back_is_flushed(void**) {
+TEST_FOR_EACH(a_port_that_comes_back_is_flushed, Kind, Excavator, Dozer) {
   Rig<Kind> rig;
   rig.step();
   rig.port.shown = CanPortState::kBusOff;
@@ -169,8 +166,7 @@ void a_port_that_comes_back_is_flushed(void**) {
 }
 
 // Bus-off that the first try ends is seen all the same.
-template <class Kind>
-void a_short_bus_off_is_seen(void**) {
+TEST_FOR_EACH(a_short_bus_off_is_seen, Kind, Excavator, Dozer) {
   Rig<Kind> rig;
   rig.step();
   rig.port.shown = CanPortState::kBusOff;
@@ -179,8 +175,7 @@ void a_short_bus_off_is_seen(void**) {
 }
 
 // Reading the port may end what it was; it is seen all the same.
-template <class Kind>
-void a_state_that_reading_ends_is_seen(void**) {
+TEST_FOR_EACH(a_state_that_reading_ends_is_seen, Kind, Excavator, Dozer) {
   Rig<Kind> rig;
   rig.step();
   rig.port.shown = CanPortState::kErrorPassive;
@@ -190,8 +185,7 @@ void a_state_that_reading_ends_is_seen(void**) {
 }
 
 // What queued up through a stall is old, be it read or be it left for the next cycle.
-template <class Kind>
-void a_stall_throws_away_what_queued_up(void**) {
+TEST_FOR_EACH(a_stall_throws_away_what_queued_up, Kind, Excavator, Dozer) {
   Rig<Kind> rig;
   rig.now = kSecondUs;  // the first cycle follows none, whatever the clock says
   rig.step();
@@ -208,8 +202,7 @@ void a_stall_throws_away_what_queued_up(void**) {
 }
 
 // Nothing is left to be taken for fresh in the next cycle until the port holds more than it should.
-template <class Kind>
-void what_a_cycle_reads_is_bounded(void**) {
+TEST_FOR_EACH(what_a_cycle_reads_is_bounded, Kind, Excavator, Dozer) {
   constexpr int kTaken = 2 * 96;
   constexpr int kRead = 4 * 96;
   Rig<Kind> rig;
@@ -228,8 +221,7 @@ void what_a_cycle_reads_is_bounded(void**) {
 }
 
 // A cycle counts as dropped if any of its commands was not taken; other frames do not count.
-template <class Kind>
-void commands_that_are_not_taken_are_counted(void**) {
+TEST_FOR_EACH(commands_that_are_not_taken_are_counted, Kind, Excavator, Dozer, ExcavatorWithSwing) {
   for (const std::uint32_t command : Kind::commands()) {
     Rig<Kind> rig;
     rig.step();
@@ -250,8 +242,8 @@ void commands_that_are_not_taken_are_counted(void**) {
 }
 
 // A controller that hears nothing sends neutral: what one cycle leaves is what the next one sends.
-template <class Kind>
-void a_cycle_leaves_the_neutral_frames_that_come_next(void**) {
+TEST_FOR_EACH(a_cycle_leaves_the_neutral_frames_that_come_next, Kind, Excavator, Dozer,
+              ExcavatorWithSwing) {
   Rig<Kind> rig;
   ecu::LastFrames last;
   rig.ecu.set_last_frames(last);
@@ -267,8 +259,7 @@ void a_cycle_leaves_the_neutral_frames_that_come_next(void**) {
   }
 }
 
-template <class Kind>
-void the_process_is_told_of(void**) {
+TEST_FOR_EACH(the_process_is_told_of, Kind, Excavator, Dozer) {
   Rig<Kind> rig;
   assert_false(rig.step().stop_requested);
   rig.port.refused_command = Kind::commands().front();
@@ -286,6 +277,34 @@ void the_process_is_told_of(void**) {
   assert_int_equal(rig.port.health.real_time.value, Kind::EcuHealth::RealTime::kOn);
 }
 
+/// A controller of this kind with hash 0x1234 that hears what the test says.
+template <class Kind>
+struct OnBus {
+  LoopbackBus can;
+  LoopbackPort& port = can.attach();
+  bool opened = port.open();
+  typename Kind::Ecu ecu{Kind::profile(), 0x1234, port};
+  TimeUs now = 0;
+
+  /// A cycle with all that was said before it.
+  const typename Kind::Ecu& step() {
+    assert_true(opened);
+    ecu.step(now, 0);
+    now += kCycleUs;
+    return ecu;
+  }
+  void say_identity(std::uint32_t hash) {
+    typename Kind::MachineIdentity identity;
+    identity.profile_hash.value = hash;
+    identity.dbc_version = {Kind::kDbcVersion, dbc::RawState::kValid};
+    CanFrame frame;
+    frame.id = Kind::MachineIdentity::kId;
+    frame.length = 8;
+    frame.data = identity.encode();
+    can.inject(frame);
+  }
+};
+
 template <class Kind>
 CanFrame stroke_frame(std::uint8_t counter, std::uint32_t raw) {
   CanFrame frame;
@@ -297,67 +316,34 @@ CanFrame stroke_frame(std::uint8_t counter, std::uint32_t raw) {
   return frame;
 }
 
-template <class Kind>
-void the_machine_has_to_be_ours(void**) {
-  LoopbackBus can;
-  LoopbackPort& port = can.attach();
-  assert_true(port.open());
-  typename Kind::Ecu ecu(Kind::profile(), 0x1234, port);
-  TimeUs now = 0;
+TEST_FOR_EACH(the_machine_has_to_be_ours, Kind, Excavator, Dozer) {
+  OnBus<Kind> bus;
   for (const std::uint32_t hash : {0x1234U, 0x4321U}) {
-    typename Kind::MachineIdentity identity;
-    identity.profile_hash.value = hash;
-    identity.dbc_version = {Kind::kDbcVersion, dbc::RawState::kValid};
-    CanFrame frame;
-    frame.id = Kind::MachineIdentity::kId;
-    frame.length = 8;
-    frame.data = identity.encode();
-    can.inject(frame);
-    ecu.step(now, 0);
-    now += kCycleUs;
-    assert_int_equal(ecu.inputs().same_machine.validity, Validity::kValid);
-    assert_int_equal(ecu.inputs().same_machine.value, hash == 0x1234U);
+    bus.say_identity(hash);
+    const auto& heard = bus.step().inputs().same_machine;
+    assert_int_equal(heard.validity, Validity::kValid);
+    assert_int_equal(heard.value, hash == 0x1234U);
   }
 }
 
 // One that babbles is believed in what it said last.
-template <class Kind>
-void the_newest_identity_counts(void**) {
-  LoopbackBus can;
-  LoopbackPort& port = can.attach();
-  assert_true(port.open());
-  typename Kind::Ecu ecu(Kind::profile(), 0x1234, port);
-  TimeUs now = 0;
+TEST_FOR_EACH(the_newest_identity_counts, Kind, Excavator, Dozer) {
+  OnBus<Kind> bus;
   for (const std::uint32_t last : {0x1234U, 0x4321U}) {
-    typename Kind::MachineIdentity identity;
-    identity.dbc_version = {Kind::kDbcVersion, dbc::RawState::kValid};
-    CanFrame frame;
-    frame.id = Kind::MachineIdentity::kId;
-    frame.length = 8;
     for (int n = 1; n <= 20; ++n) {
-      identity.profile_hash.value = n == 20 ? last : 0x1234U ^ 0x4321U ^ last;
-      frame.data = identity.encode();
-      can.inject(frame);
+      bus.say_identity(n == 20 ? last : 0x1234U ^ 0x4321U ^ last);
     }
-    ecu.step(now, 0);
-    now += kCycleUs;
-    assert_int_equal(ecu.inputs().same_machine.value, last == 0x1234U);
-    assert_true(ecu.inputs().link.message_faults.empty());
+    const auto& inputs = bus.step().inputs();
+    assert_int_equal(inputs.same_machine.value, last == 0x1234U);
+    assert_true(inputs.link.message_faults.empty());
   }
 }
 
-template <class Kind>
-void what_is_wrong_with_frames_reaches_the_controller(void**) {
-  LoopbackBus can;
-  LoopbackPort& port = can.attach();
-  assert_true(port.open());
-  typename Kind::Ecu ecu(Kind::profile(), 0x1234, port);
-  TimeUs now = 0;
+TEST_FOR_EACH(what_is_wrong_with_frames_reaches_the_controller, Kind, Excavator, Dozer) {
+  OnBus<Kind> bus;
   const auto step_with = [&](const CanFrame& frame) {
-    can.inject(frame);
-    ecu.step(now, 0);
-    now += kCycleUs;
-    return ecu.inputs().link;
+    bus.can.inject(frame);
+    return bus.step().inputs().link;
   };
   for (std::uint8_t counter = 0; counter < 4; ++counter) {
     assert_false(step_with(stroke_frame<Kind>(counter, 1000)).out_of_range);
@@ -376,25 +362,4 @@ void what_is_wrong_with_frames_reaches_the_controller(void**) {
 
 }  // namespace
 
-#define ON_BOTH(test) cmocka_unit_test(test<Excavator>), cmocka_unit_test(test<Dozer>)
-
-int main() {
-  const CMUnitTest tests[] = {
-      ON_BOTH(the_ports_state_is_the_buss),
-      ON_BOTH(a_port_that_is_down_is_tried_every_200_ms),
-      ON_BOTH(a_port_that_comes_back_is_flushed),
-      ON_BOTH(a_short_bus_off_is_seen),
-      ON_BOTH(a_state_that_reading_ends_is_seen),
-      ON_BOTH(a_stall_throws_away_what_queued_up),
-      ON_BOTH(what_a_cycle_reads_is_bounded),
-      ON_BOTH(the_machine_has_to_be_ours),
-      ON_BOTH(the_newest_identity_counts),
-      ON_BOTH(commands_that_are_not_taken_are_counted),
-      cmocka_unit_test(commands_that_are_not_taken_are_counted<ExcavatorWithSwing>),
-      ON_BOTH(a_cycle_leaves_the_neutral_frames_that_come_next),
-      cmocka_unit_test(a_cycle_leaves_the_neutral_frames_that_come_next<ExcavatorWithSwing>),
-      ON_BOTH(the_process_is_told_of),
-      ON_BOTH(what_is_wrong_with_frames_reaches_the_controller),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -4,13 +4,14 @@
 /// the controller needs to be brought to kActive the way an operator does it.
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "firmware/dozer/dozer_controller.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
-#include "tests/unit/firmware/inputs.hpp"
+#include "tests/unit/firmware/plain_dozer.hpp"
 
 namespace graben::test {
 
@@ -46,7 +47,7 @@ struct Grading {
                                                          flow_m3ps / profile.blade.cap_area_m2())
                                             : 0.0;
     stroke_m = std::clamp(stroke_m + blade_mps * 0.01, 0.0, blade.stroke_max_m());
-    DozerInputs inputs;
+    DozerInputs inputs = complete_dozer_inputs(now_us);
     if (profile.tilt.present) {
       tilt_stroke_m += outputs.enable ? outputs.status.wanted_tilt_mps * 0.01 : 0.0;
       inputs.tilt_stroke_m = fresh(tilt_stroke_m, now_us);
@@ -76,12 +77,6 @@ struct Grading {
       inputs.track[i].speed_mps = fresh(tracks_mps[i], now_us);
     }
     inputs.engine_speed_radps = fresh(engine_radps, now_us);
-    inputs.driver.enable = fresh(true, now_us);
-    inputs.driver.mode = fresh(OperatorMode::kAutomatic, now_us);
-    inputs.driver.task = fresh(Task::kGrade, now_us);
-    inputs.driver.speed_override_ratio = fresh(1.0, now_us);
-    inputs.same_machine = fresh(true, now_us);
-    inputs.link.bus = BusState::kActive;
     return inputs;
   }
   /// As its tracks say, on a track that curves. The station is the way of its middle.
@@ -129,6 +124,21 @@ struct Grading {
   double speed_mps = 0.0;
 };
 
+using ChangeOfDozer = std::function<void(DozerInputs&)>;
+
+/// A machine that has graded for half a second, and what it does once its inputs are changed so:
+/// until it stops, or so many cycles.
+inline Grading graded_with(const DozerProfile& profile, const ChangeOfDozer& change, int cycles) {
+  Grading grading(profile);
+  grading.run(50);
+  for (int n = 0; n < cycles && grading.outputs.status.mode == EcuMode::kActive; ++n) {
+    DozerInputs inputs = grading.next();
+    change(inputs);
+    grading.step(inputs);
+  }
+  return grading;
+}
+
 inline void assert_neutral(const DozerOutputs& outputs) {
   assert_false(outputs.enable);
   assert_near(outputs.blade_duty_ratio, 0.0, 0.0);
@@ -137,6 +147,12 @@ inline void assert_neutral(const DozerOutputs& outputs) {
     assert_near(outputs.pump_ratio[i], 0.0, 0.0);
     assert_near(outputs.motor_ratio[i], 1.0, 0.0);
   }
+}
+
+inline void assert_stopped_by(Fault fault, const DozerOutputs& outputs) {
+  assert_int_equal(outputs.status.mode, EcuMode::kFault);
+  assert_int_equal(outputs.status.fault, fault);
+  assert_neutral(outputs);
 }
 
 }  // namespace graben::test

@@ -73,4 +73,60 @@ TaskState run_until(const TaskProgram& program, TaskState state, const Until& un
 
 inline bool in_cut(const TaskState& state) { return state.layers.phase == CutPhase::kCuts; }
 
+/// In its first cut, farther than this share of the way.
+inline TaskState cut_beyond(const TaskProgram& program, double share) {
+  return run_until(program, begun(program),
+                   [share](const TaskState& at) { return in_cut(at) && at.layers.share > share; });
+}
+
+/// On the way down to it, lower than this over the design.
+inline TaskState enters_below(const TaskProgram& program, double height_m) {
+  return run_until(program, begun(program), [height_m](const TaskState& at) {
+    return at.layers.phase == CutPhase::kEnters && at.layers.height_m < height_m;
+  });
+}
+
+/// While it folds the bucket over the ground.
+inline TaskState folding(const TaskProgram& program) {
+  return run_until(program, begun(program), [](const TaskState& at) {
+    return at.layers.phase == CutPhase::kLifts && at.layers.folds && at.time_s > 0.2;
+  });
+}
+
+/// Out of its first cut, before the next step.
+inline TaskState lifted(const TaskProgram& program) {
+  return run_until(program, begun(program), [](const TaskState& at) {
+    return at.phase == TaskPhase::kSteps && at.step == 1 && at.layers.phase == CutPhase::kNone;
+  });
+}
+
+/// So many cycles, each with what `change` makes of teeth that follow.
+template <class Change>
+TaskState advance_seeing(const TaskProgram& program, TaskState state, int cycles,
+                         const Change& change) {
+  for (int n = 0; n < cycles; ++n) {
+    CutSeen seen = follows(program, state);
+    change(seen);
+    state = advance(program, state, seen);
+  }
+  return state;
+}
+
+/// So many cycles against this force, of what the program cuts with.
+inline TaskState pressed(const TaskProgram& program, const TaskState& state, int cycles,
+                         const Eigen::Vector2d& force) {
+  return advance_seeing(program, state, cycles,
+                        [&](CutSeen& seen) { seen.force_n = force * program.layers.force_n; });
+}
+
+/// The same until the cut ends, which it has to.
+inline TaskState pressed_out(const TaskProgram& program, TaskState state, int most_cycles,
+                             const Eigen::Vector2d& force) {
+  for (int n = 0; n < most_cycles && in_cut(state); ++n) {
+    state = pressed(program, state, 1, force);
+  }
+  assert_int_equal(state.layers.phase, CutPhase::kLifts);
+  return state;
+}
+
 }  // namespace graben::layer_test

@@ -2,8 +2,6 @@
 // A machine on a design whose track curves, from signals to commands: it steers, no track runs
 // faster than it can, and it stops where it does not know where it is.
 
-#include <functional>
-
 #include "tests/unit/firmware/grading_dozer.hpp"
 #include "tests/unit/firmware/tilting_dozer.hpp"
 
@@ -11,6 +9,7 @@ namespace {
 
 using namespace graben;
 using test::Grading;
+using test::on;
 
 /// Level; straight to x = 4 m, then of this curvature.
 struct CurvedDesign : test::CrossDesign {
@@ -22,12 +21,6 @@ struct CurvedDesign : test::CrossDesign {
   }
   std::vector<double> curvature;
 };
-
-DozerProfile on(const CurvedDesign& design) {
-  DozerProfile profile = test::tilting_dozer().profile;
-  profile.grade = design.grade;
-  return profile;
-}
 
 TEST(it_steers_along_the_curve) {
   for (const double radius_m : {20.0, -12.0}) {
@@ -66,18 +59,9 @@ TEST(the_outer_track_limits_the_speed) {
   assert_true(kind == LimitKind::kAhead || kind == LimitKind::kTransmissionFlow);
 }
 
-void assert_stops(Fault fault, const std::function<void(DozerInputs&)>& change) {
+void assert_stops(Fault fault, const test::ChangeOfDozer& change) {
   const CurvedDesign design(0.05);
-  Grading grading(on(design));
-  grading.run(50);
-  for (int n = 0; n < 600 && grading.outputs.status.mode == EcuMode::kActive; ++n) {
-    DozerInputs inputs = grading.next();
-    change(inputs);
-    grading.step(inputs);
-  }
-  assert_int_equal(grading.outputs.status.mode, EcuMode::kFault);
-  assert_int_equal(grading.outputs.status.fault, fault);
-  test::assert_neutral(grading.outputs);
+  test::assert_stopped_by(fault, test::graded_with(on(design), change, 600).outputs);
 }
 
 TEST(where_it_is_has_to_be_known) {
@@ -127,9 +111,7 @@ TEST(an_edge_far_off_the_track_stops_it) {
 /// A straight design asks for none of it.
 TEST(a_straight_track_needs_none_of_it) {
   const test::CrossDesign design(0.05, 0.03);
-  DozerProfile profile = test::tilting_dozer().profile;
-  profile.grade = design.grade;
-  Grading grading(profile);
+  Grading grading(on(design));
   grading.run(100);
   assert_int_equal(grading.outputs.status.mode, EcuMode::kActive);
   assert_near(grading.outputs.pump_ratio[kLeft], grading.outputs.pump_ratio[kRight], 0.0);

@@ -27,6 +27,21 @@ double cut_through(const LayerPlan& plan, double height_m, CutState& state) {
   return pass(plan, 1.0, 0.0, height_m, state);
 }
 
+/// The next cut, whole, and what it has filled by its own account.
+void cut_next(const LayerPlan& plan, double filled_m3, CutState& state) {
+  static_cast<void>(cut_through(plan, state.cut.height_m, state));
+  state.loaded_m3 = 0.0;
+  next_cut(plan, {0.7, filled_m3}, state);
+}
+
+/// All of it, each cut with this share of a full bucket.
+CutState dug(const LayerPlan& plan, CutState state, double filled = 0.2) {
+  while (!state.met) {
+    cut_next(plan, filled * plan.full_m3, state);
+  }
+  return state;
+}
+
 constexpr CutEnd kEven{0.7, 0.4};
 constexpr CutEnd kNothing{0.7, 0.0};
 
@@ -228,11 +243,7 @@ TEST(soil_that_falls_in_is_swept_out) {
   CutState state = undug(whole);
   weigh_cut(whole, whole.full_m3, state);
   assert_int_equal(state.sweeps[0], 0);
-  while (!state.met) {
-    static_cast<void>(cut_through(whole, state.cut.height_m, state));
-    state.loaded_m3 = 0.0;
-    next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
-  }
+  state = dug(whole, state);
   CutState light = state;
   weigh_cut(whole, 0.27 * whole.full_m3, light);
   assert_true(light.met);
@@ -251,32 +262,15 @@ TEST(soil_that_falls_in_is_swept_out) {
     once.met = true;
     weigh_cut(whole, whole.full_m3, once);
     assert_true(once.met);
-    static_cast<void>(cut_through(whole, state.cut.height_m, state));
-    state.loaded_m3 = 0.0;
-    next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
+    cut_next(whole, 0.2 * whole.full_m3, state);
   }
   assert_int_equal(sweeps, kSweepsMost);
-}
-
-CutState dug(const LayerPlan& whole) {
-  CutState state = undug(whole);
-  while (!state.met) {
-    static_cast<void>(cut_through(whole, state.cut.height_m, state));
-    state.loaded_m3 = 0.0;
-    next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
-  }
-  return state;
 }
 
 /// A last cut that brings much has moved what stands beside it, whatever its edge has passed.
 TEST(a_heavy_last_cut_is_swept_after) {
   const LayerPlan whole = plan();
-  CutState state = undug(whole);
-  while (!state.met) {
-    static_cast<void>(cut_through(whole, state.cut.height_m, state));
-    state.loaded_m3 = 0.0;
-    next_cut(whole, {0.7, 0.8 * whole.full_m3}, state);
-  }
+  CutState state = dug(whole, undug(whole), 0.8);
   CutState light = state;
   weigh_cut(whole, 0.3 * whole.full_m3, light);
   assert_true(light.met);
@@ -288,7 +282,7 @@ TEST(a_heavy_last_cut_is_swept_after) {
 /// A sweep takes what nobody has seen: all that it brings has fallen in.
 TEST(what_a_sweep_brings_has_fallen_in) {
   const LayerPlan whole = plan();
-  CutState state = dug(whole);
+  CutState state = dug(whole, undug(whole));
   weigh_cut(whole, 0.5 * whole.full_m3, state);
   assert_false(state.met);
   assert_false(state.wall_falls);
@@ -302,7 +296,7 @@ TEST(what_a_sweep_brings_has_fallen_in) {
 /// Nearly a full bucket of it: the far wall falls in. It is cut back until it stands.
 TEST(a_wall_that_stops_a_sweep_stands) {
   const LayerPlan whole = plan();
-  CutState state = dug(whole);
+  CutState state = dug(whole, undug(whole));
   weigh_cut(whole, 0.9 * whole.full_m3, state);
   assert_true(state.wall_falls);
   state.cut.from_share = -0.2;
@@ -314,14 +308,12 @@ TEST(a_wall_that_stops_a_sweep_stands) {
 /// A wall that lets soil in again and again is cut back too, however little it is at a time.
 TEST(a_wall_that_crumbles_is_cut_back) {
   const LayerPlan whole = plan();
-  CutState state = dug(whole);
+  CutState state = dug(whole, undug(whole));
   for (int sweep = 0; sweep < 2; ++sweep) {
     assert_false(state.wall_falls);
     weigh_cut(whole, 0.5 * whole.full_m3, state);
     assert_false(state.met);
-    static_cast<void>(cut_through(whole, state.cut.height_m, state));
-    state.loaded_m3 = 0.0;
-    next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
+    cut_next(whole, 0.2 * whole.full_m3, state);
   }
   weigh_cut(whole, 0.5 * whole.full_m3, state);
   assert_true(state.wall_falls);
@@ -334,9 +326,7 @@ TEST(every_strip_that_soil_fell_into_is_swept) {
   CutState state = undug(whole);
   const auto cut = [&](double weighed_m3) {
     const int strip = state.cut.strip;
-    static_cast<void>(cut_through(whole, state.cut.height_m, state));
-    state.loaded_m3 = 0.0;
-    next_cut(whole, {0.7, 0.2 * whole.full_m3}, state);
+    cut_next(whole, 0.2 * whole.full_m3, state);
     weigh_cut(whole, weighed_m3, state);
     return strip;
   };

@@ -65,6 +65,11 @@ struct Run {
     servo = next_servo(profile, servo, {asked_mps, 0.0, 0.0, 0.0}, {stroke_m, 0.5, 0.5, 0.0},
                        kPeriod_s);
   }
+  void run(int cycles, double asked_mps) {
+    for (int n = 0; n < cycles; ++n) {
+      step(asked_mps);
+    }
+  }
 };
 
 /// Whatever is asked of it and whatever the dead time: a cylinder that answers as expected owes
@@ -78,9 +83,7 @@ TEST(a_cylinder_as_expected_owes_nothing) {
     }
     const double predicted_m =
         of(run.servo, &ServoState::stroke_m)[0] + of(run.servo, &ServoState::under_way_m)[0];
-    for (int n = 0; n < 200; ++n) {
-      run.step(0.0);
-    }
+    run.run(200, 0.0);
     assert_near(of(run.servo, &ServoState::stroke_m)[0], predicted_m, 1e-6);
     assert_near(of(run.servo, &ServoState::under_way_m).norm(), 0.0, 1e-6);
   }
@@ -89,28 +92,20 @@ TEST(a_cylinder_as_expected_owes_nothing) {
 /// One that does nine tenths owes the tenth, no more than its bound, and only on its own axis.
 TEST(a_slow_cylinder_owes_what_it_lacks) {
   Run run(0.0, 0.9);
-  for (int n = 0; n < 100; ++n) {
-    run.step(0.1);
-  }
+  run.run(100, 0.1);
   // 1 s at 0.1 m/s less the two lags of 25 ms.
   assert_near(of(run.servo, &ServoState::integral_m)[0], 0.1 * 0.1 * (1.0 - 0.05), 2e-4);
   assert_near(of(run.servo, &ServoState::integral_m)[1], 0.0, 0.0);
-  for (int n = 0; n < 500; ++n) {
-    run.step(0.1);
-  }
+  run.run(500, 0.1);
   assert_near(of(run.servo, &ServoState::integral_m)[0], 0.02, 1e-12);
 }
 
 /// A held cylinder whose lambda has gone to 0 owes nothing new: nothing winds up.
 TEST(where_lambda_is_0_nothing_winds_up) {
   Run run(0.0, 0.0);
-  for (int n = 0; n < 50; ++n) {
-    run.step(0.01);
-  }
+  run.run(50, 0.01);
   const double before_m = of(run.servo, &ServoState::integral_m)[0];
-  for (int n = 0; n < 500; ++n) {
-    run.step(0.0);
-  }
+  run.run(500, 0.0);
   assert_near(of(run.servo, &ServoState::integral_m)[0], before_m + 0.01 * 0.05, 1e-4);
 }
 
@@ -161,9 +156,7 @@ TEST(what_is_owed_stops_at_a_stroke_end) {
 /// Let go, what is under way still arrives and is no debt.
 TEST(a_released_servo_still_expects_what_is_under_way) {
   Run run(0.15, 1.0);
-  for (int n = 0; n < 40; ++n) {
-    run.step(0.1);
-  }
+  run.run(40, 0.1);
   const double coming_m = of(run.servo, &ServoState::under_way_m)[0];
   assert_near(coming_m, 0.1 * (0.15 + 0.05), 0.1 * 0.011);
   const double from_m = of(run.servo, &ServoState::stroke_m)[0];

@@ -17,11 +17,7 @@ TEST(far_over_its_design_teeth_may_be_late) {
     TaskState state = run_until(program, begun(program), [thin](const TaskState& at) {
       return in_cut(at) && at.layers.cuts.cut.thin == thin && at.layers.share > 0.5;
     });
-    for (int n = 0; n < 100; ++n) {
-      CutSeen seen = follows(program, state);
-      seen.behind_m = 0.03;
-      state = advance(program, state, seen);
-    }
+    state = advance_seeing(program, state, 100, [](CutSeen& seen) { seen.behind_m = 0.03; });
     assert_true(in_cut(state));
     return state.pace_ratio;
   };

@@ -51,48 +51,26 @@ TEST(aims_move_as_they_say) {
 
 TEST(a_heavy_cut_gives_way_upwards) {
   const TaskProgram program = planned();
-  const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return in_cut(at) && at.layers.share > 0.4;
-  });
-  const double depth_m = state.layers.cuts.depth_m;
-  TaskState heavy = state;
-  for (int n = 0; n < 50; ++n) {
-    CutSeen seen = follows(program, heavy);
-    seen.force_n = {1.3 * program.layers.force_n, 0.0};
-    heavy = advance(program, heavy, seen);
-  }
+  const TaskState state = cut_beyond(program, 0.4);
+  const TaskState heavy = pressed(program, state, 50, {1.3, 0.0});
   assert_true(heavy.layers.height_m > state.layers.height_m + 0.02);
   assert_true(heavy.layers.heavy_s > 0.5);
   // Held for a second it ends, is lifted, and the next cuts are less deep.
-  for (int n = 0; n < 200 && in_cut(heavy); ++n) {
-    CutSeen seen = follows(program, heavy);
-    seen.force_n = {1.6 * program.layers.force_n, 0.0};
-    heavy = advance(program, heavy, seen);
-  }
-  assert_int_equal(heavy.layers.phase, CutPhase::kLifts);
-  assert_true(heavy.layers.cuts.depth_m < depth_m);
+  const TaskState ended = pressed_out(program, heavy, 200, {1.6, 0.0});
+  assert_true(ended.layers.cuts.depth_m < state.layers.cuts.depth_m);
 }
 
 TEST(a_force_along_the_way_holds_nothing_up) {
   const TaskProgram program = planned();
-  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return in_cut(at) && at.layers.share > 0.3;
-  });
-  const double height_m = state.layers.height_m;
-  for (int n = 0; n < 50; ++n) {
-    CutSeen seen = follows(program, state);
-    seen.force_n = {-2.0 * program.layers.force_n, 0.0};
-    state = advance(program, state, seen);
-  }
-  assert_near(state.layers.height_m, height_m, 5e-3);
+  const TaskState state = cut_beyond(program, 0.3);
+  const TaskState pushed = pressed(program, state, 50, {-2.0, 0.0});
+  assert_near(pushed.layers.height_m, state.layers.height_m, 5e-3);
 }
 
 /// Teeth that do not come down are not pressed on by a plan far below them.
 TEST(soil_that_holds_the_edge_up_is_cut_from_there) {
   const TaskProgram program = planned();
-  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return at.layers.phase == CutPhase::kEnters && at.layers.height_m < 0.55;
-  });
+  TaskState state = enters_below(program, 0.55);
   const TeethPose held = task_aim(machine().kinematics, program, state).teeth;
   for (int n = 0; n < 300 && !in_cut(state); ++n) {
     CutSeen seen;
@@ -109,9 +87,7 @@ TEST(soil_that_holds_the_edge_up_is_cut_from_there) {
 /// A platform that still swings about its place is waited for, over the ground.
 TEST(teeth_off_to_a_side_do_not_end_the_way_down) {
   const TaskProgram program = planned();
-  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return at.layers.phase == CutPhase::kEnters && at.layers.height_m < 0.7;
-  });
+  TaskState state = enters_below(program, 0.7);
   for (int n = 0; n < 300; ++n) {
     CutSeen seen = follows(program, state);
     seen.teeth.position_m.y() += 0.12;
@@ -126,9 +102,7 @@ TEST(teeth_off_to_a_side_do_not_end_the_way_down) {
 /// Oil that is pressed lets off before the edge goes along: it would throw it down.
 TEST(pressed_oil_lets_off_before_a_cut) {
   const TaskProgram program = planned();
-  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return at.layers.phase == CutPhase::kEnters && at.layers.height_m < 0.6;
-  });
+  TaskState state = enters_below(program, 0.6);
   const double presses_n = 0.03 / program.layers.give_down_mpn;
   bool eased = false;
   for (int n = 0; n < 400 && !in_cut(state); ++n) {
@@ -152,20 +126,12 @@ TEST(pressed_oil_lets_off_before_a_cut) {
   assert_near(state.layers.height_m, state.layers.stood_m, 0.012);
 }
 
-/// A heel on uncut ground holds a bucket that is to be folded: it is lifted straight up first.
 /// A heel that is pressed on uncut ground is as heavy as soil before the edge.
 TEST(a_pressed_heel_gives_way_too) {
   const TaskProgram program = planned();
-  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return in_cut(at) && at.layers.share > 0.6;
-  });
-  const double height_m = state.layers.height_m;
-  for (int n = 0; n < 50; ++n) {
-    CutSeen seen = follows(program, state);
-    seen.force_n = {0.0, 2.0 * program.layers.force_n};
-    state = advance(program, state, seen);
-  }
-  assert_true(state.layers.height_m > height_m + 0.02);
+  const TaskState state = cut_beyond(program, 0.6);
+  const TaskState borne = pressed(program, state, 50, {0.0, 2.0});
+  assert_true(borne.layers.height_m > state.layers.height_m + 0.02);
 }
 
 /// Of the last cut: teeth under their plan slow it down more than teeth over it, and at once.
@@ -175,38 +141,30 @@ TEST(a_last_cut_waits_for_teeth_that_sink) {
     return in_cut(at) && at.layers.cuts.cut.thin && at.layers.share > 0.5;
   });
   const auto pace_with = [&](double off_m) {
-    TaskState other = state;
-    for (int n = 0; n < 15; ++n) {
-      CutSeen seen = follows(program, other);
+    const auto off = [off_m](CutSeen& seen) {
       seen.teeth.position_m.z() += off_m;
       seen.behind_m = 0.012;
-      other = advance(program, other, seen);
-    }
-    return other.pace_ratio;
+    };
+    return advance_seeing(program, state, 15, off).pace_ratio;
   };
   assert_true(pace_with(-0.012) < 0.5);
   assert_true(pace_with(0.012) > 0.7);
 }
 
+/// For 60 cycles, without getting on.
+TaskState held_at(const TaskProgram& program, const TaskState& state, const TeethPose& held) {
+  return advance_seeing(program, state, 60, [&held](CutSeen& seen) {
+    seen.teeth = held;
+    seen.lambda = 0.0;
+  });
+}
+
 /// In the slot that it has gone down in, the bucket is lifted the way that it has come.
 TEST(teeth_in_their_slot_go_back_as_they_came) {
   const TaskProgram program = planned();
-  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return in_cut(at) && at.layers.share > 0.05;
-  });
-  for (int n = 0; n < 300 && in_cut(state); ++n) {
-    CutSeen seen = follows(program, state);
-    seen.force_n = {2.0 * program.layers.force_n, 0.0};
-    state = advance(program, state, seen);
-  }
-  assert_int_equal(state.layers.phase, CutPhase::kLifts);
+  TaskState state = pressed_out(program, cut_beyond(program, 0.05), 300, {2.0, 0.0});
   const TeethPose held = task_aim(machine().kinematics, program, state).teeth;
-  for (int n = 0; n < 60; ++n) {
-    CutSeen seen = follows(program, state);
-    seen.teeth = held;
-    seen.lambda = 0.0;
-    state = advance(program, state, seen);
-  }
+  state = held_at(program, state, held);
   const TeethPose freed = state.layers.lift.line.at(1.0);
   const TeethPose& entered = state.layers.entered;
   assert_near(freed.attitude_rad, entered.attitude_rad, 1e-6);
@@ -229,18 +187,12 @@ TEST(begins_beyond_its_line_where_nothing_is_fenced) {
   assert_near(begins_m(), 0.0, 0.0);
 }
 
+/// A heel on uncut ground holds a bucket that is to be folded: it is lifted straight up first.
 TEST(a_held_heel_is_lifted_straight_up) {
   const TaskProgram program = planned();
-  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return at.layers.phase == CutPhase::kLifts && at.layers.folds && at.time_s > 0.2;
-  });
+  TaskState state = folding(program);
   const TeethPose held = task_aim(machine().kinematics, program, state).teeth;
-  for (int n = 0; n < 60; ++n) {
-    CutSeen seen = follows(program, state);
-    seen.teeth = held;
-    seen.lambda = 0.0;
-    state = advance(program, state, seen);
-  }
+  state = held_at(program, state, held);
   assert_int_equal(state.layers.phase, CutPhase::kLifts);
   const TeethPose& change = state.layers.lift.line.change;
   assert_near(change.attitude_rad, 0.0, 1e-9);
@@ -262,9 +214,7 @@ TEST(a_full_bucket_ends_the_cut) {
 /// The bucket comes out of the ground folded in, before it swings.
 TEST(lifts_out_before_it_swings) {
   const TaskProgram program = planned();
-  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return at.phase == TaskPhase::kSteps && at.step == 1 && at.layers.phase == CutPhase::kNone;
-  });
+  TaskState state = lifted(program);
   const TaskAim aim = task_aim(machine().kinematics, program, state);
   assert_true(aim.teeth.position_m.z() > 0.3);
   assert_true(aim.teeth.attitude_rad < 0.45);
@@ -277,9 +227,7 @@ TEST(lifts_out_before_it_swings) {
 /// What was dug is known when the task goes on, and forgotten when it has come to its end.
 TEST(goes_on_where_it_was) {
   const TaskProgram program = planned();
-  const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return at.phase == TaskPhase::kSteps && at.step == 1 && at.layers.phase == CutPhase::kNone;
-  });
+  const TaskState state = lifted(program);
   const TaskMemory rests = stopped(remembered(0, state));
   assert_false(rests.runs);
   assert_true(rests.intact());
@@ -291,25 +239,21 @@ TEST(goes_on_where_it_was) {
 }
 
 TEST(what_can_t_be_dug_in_layers_is_refused) {
-  const auto refusal = [](const ProgramRequest& asked) {
-    return plan_program(machine().profile, asked).refusal;
+  const auto assert_refused = [](ProgramRefusal refusal, void (*change)(ProgramRequest&)) {
+    ProgramRequest asked = request();
+    change(asked);
+    assert_int_equal(plan_program(machine().profile, asked).refusal, refusal);
   };
-  ProgramRequest no_design = request();
-  no_design.has_design = false;
-  assert_int_equal(refusal(no_design), ProgramRefusal::kLayers);
-  ProgramRequest once = request();
-  once.repeats = false;
-  assert_int_equal(refusal(once), ProgramRefusal::kLayers);
-  ProgramRequest wide = request();
-  wide.step[0].strips = 3;
-  wide.step[0].strip_rad = 3.5;
-  assert_int_equal(refusal(wide), ProgramRefusal::kSwingEnd);
-  ProgramRequest many = request();
-  many.step[0].strips = kStripMost + 1;
-  assert_int_equal(refusal(many), ProgramRefusal::kLayers);
-  ProgramRequest high = request();
-  high.step[0].ground_m = 9.0;
-  assert_int_equal(refusal(high), ProgramRefusal::kBlindSpot);
+  using Request = ProgramRequest;
+  assert_refused(ProgramRefusal::kLayers, [](Request& asked) { asked.has_design = false; });
+  assert_refused(ProgramRefusal::kLayers, [](Request& asked) { asked.repeats = false; });
+  assert_refused(ProgramRefusal::kSwingEnd, [](Request& asked) {
+    asked.step[0].strips = 3;
+    asked.step[0].strip_rad = 3.5;
+  });
+  assert_refused(ProgramRefusal::kLayers,
+                 [](Request& asked) { asked.step[0].strips = kStripMost + 1; });
+  assert_refused(ProgramRefusal::kBlindSpot, [](Request& asked) { asked.step[0].ground_m = 9.0; });
 }
 
 }  // namespace

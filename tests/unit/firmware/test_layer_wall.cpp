@@ -103,17 +103,9 @@ TEST(a_wall_is_pulled_at_with_less) {
 
 TEST(a_folded_heel_that_bears_goes_straight_up) {
   const TaskProgram program = planned();
-  TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return at.layers.phase == CutPhase::kLifts && at.layers.folds && at.time_s > 0.2;
-  });
+  const TaskState state = folding(program);
   const auto after = [&](double force) {
-    TaskState other = state;
-    for (int n = 0; n < 55; ++n) {
-      CutSeen seen = follows(program, other);
-      seen.force_n = force * program.layers.force_n * Eigen::Vector2d(-0.6, 0.8);
-      other = advance(program, other, seen);
-    }
-    return other.layers.lift.line.change;
+    return pressed(program, state, 55, {-0.6 * force, 0.8 * force}).layers.lift.line.change;
   };
   assert_true(std::abs(after(1.2).attitude_rad) > 0.1);
   assert_near(after(2.0).attitude_rad, 0.0, 1e-9);

@@ -2,8 +2,6 @@
 // A machine whose blade tilts, from signals to commands: it holds its slope, and stops as one
 // without tilt does where a sensor or a spool of the tilt fails.
 
-#include <functional>
-
 #include "tests/unit/firmware/grading_dozer.hpp"
 #include "tests/unit/firmware/tilting_dozer.hpp"
 
@@ -12,12 +10,7 @@ namespace {
 using namespace graben;
 using test::CrossDesign;
 using test::Grading;
-
-DozerProfile on(const CrossDesign& design) {
-  DozerProfile profile = test::tilting_dozer().profile;
-  profile.grade = design.grade;
-  return profile;
-}
+using test::on;
 
 TEST(the_edge_takes_on_the_designs_slope) {
   const CrossDesign design(0.05, 0.03);
@@ -43,39 +36,30 @@ TEST(a_rolled_body_is_made_up_for) {
   assert_near(grading.setup->tilt.angle_rad(grading.tilt_stroke_m), -0.04, 2e-3);
 }
 
-void assert_stops(Fault fault, const std::function<void(DozerInputs&)>& change) {
+void assert_stops(Fault fault, const test::ChangeOfDozer& change) {
   const CrossDesign design(0.05, 0.03);
-  Grading grading(on(design));
-  grading.run(50);
-  for (int n = 0; n < 100 && grading.outputs.status.mode == EcuMode::kActive; ++n) {
-    DozerInputs inputs = grading.next();
-    change(inputs);
-    grading.step(inputs);
-  }
-  assert_int_equal(grading.outputs.status.mode, EcuMode::kFault);
-  assert_int_equal(grading.outputs.status.fault, fault);
-  test::assert_neutral(grading.outputs);
+  test::assert_stopped_by(fault, test::graded_with(on(design), change, 100).outputs);
 }
 
 TEST(what_the_tilt_needs_is_required) {
-  assert_stops(Fault::kPoseMissing, [](DozerInputs& inputs) {
-    inputs.body.roll_rad.validity = Validity::kNotAvailable;
-  });
-  assert_stops(Fault::kPoseMissing, [](DozerInputs& inputs) {
-    inputs.body.roll_rate_radps.validity = Validity::kNotAvailable;
-  });
-  assert_stops(Fault::kStrokeMissing, [](DozerInputs& inputs) {
-    inputs.tilt_stroke_m.validity = Validity::kNotAvailable;
-  });
-  assert_stops(Fault::kSpoolMissing, [](DozerInputs& inputs) {
-    inputs.tilt_spool_ratio.validity = Validity::kNotAvailable;
-  });
+  for (const auto signal : {&BodyInputs::roll_rad, &BodyInputs::roll_rate_radps}) {
+    assert_stops(Fault::kPoseMissing, [signal](DozerInputs& inputs) {
+      (inputs.body.*signal).validity = Validity::kNotAvailable;
+    });
+  }
+  const auto assert_misses = [](Fault fault, Signal<double> DozerInputs::*signal) {
+    assert_stops(fault, [signal](DozerInputs& inputs) {
+      (inputs.*signal).validity = Validity::kNotAvailable;
+    });
+  };
+  assert_misses(Fault::kStrokeMissing, &DozerInputs::tilt_stroke_m);
+  assert_misses(Fault::kSpoolMissing, &DozerInputs::tilt_spool_ratio);
 }
 
 /// In motion it would be a jump first.
 TEST(what_cannot_be_keeps_it_from_arming) {
   const CrossDesign design(0.05, 0.03);
-  const auto fault_of = [&](const std::function<void(DozerInputs&)>& change) {
+  const auto fault_of = [&](const test::ChangeOfDozer& change) {
     Grading grading(on(design));
     DozerInputs inputs = grading.next();
     change(inputs);

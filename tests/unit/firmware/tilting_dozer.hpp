@@ -38,4 +38,11 @@ struct CrossDesign {
   GradeDesign grade;
 };
 
+/// The machine on it.
+inline DozerProfile on(const CrossDesign& design) {
+  DozerProfile profile = tilting_dozer().profile;
+  profile.grade = design.grade;
+  return profile;
+}
+
 }  // namespace graben::test

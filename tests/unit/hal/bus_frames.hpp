@@ -61,6 +61,11 @@ inline DozerCommand filled<DozerCommand>(std::uint32_t raw) {
 // `Other` are messages that a sender could send under the id of Stroke.
 struct ExcavatorBus {
   using Receiver = WithAllParts<ExcavatorReceiver>;
+  using Transmitter = ExcavatorTransmitter;
+  using MachineIdentity = dbc::excavator::MachineIdentity;
+  static constexpr std::uint8_t kDbcVersion = dbc::excavator::kDbcVersion;
+  static constexpr auto kTask = dbc::excavator::OperatorCommand::Task::kDig;
+  static constexpr double kTaskSeen = 1.0;
   using Stroke = dbc::excavator::BoomStroke;
   using SpoolCommand = dbc::excavator::SpoolCommand;
   using OperatorCommand = dbc::excavator::OperatorCommand;
@@ -78,6 +83,11 @@ struct ExcavatorBus {
 
 struct DozerBus {
   using Receiver = DozerReceiver;
+  using Transmitter = DozerTransmitter;
+  using MachineIdentity = dbc::dozer::MachineIdentity;
+  static constexpr std::uint8_t kDbcVersion = dbc::dozer::kDbcVersion;
+  static constexpr auto kTask = dbc::dozer::OperatorCommand::Task::kGrade;
+  static constexpr double kTaskSeen = 2.0;
   using Stroke = dbc::dozer::BladeStroke;
   using SpoolCommand = dbc::dozer::SpoolCommand;
   using OperatorCommand = DozerCommand;
@@ -128,6 +138,25 @@ void assert_signal(const Signal<T>& signal, double value, TimeUs stamp_us) {
   assert_int_equal(signal.validity, Validity::kValid);
   assert_near(static_cast<double>(signal.value), value, 1e-9 * std::fabs(value));
   assert_int_equal(signal.stamp_us, stamp_us);
+}
+
+// `lost`, which this field says, is lost by either raw value that says so, and `stays` is not.
+template <class Message, class Receiver>
+void check_lost(Receiver& receiver, const dbc::Field& field,
+                const std::array<std::uint32_t, 2>& error_and_not_available,
+                const Signal<double>& lost, const Signal<double>& stays) {
+  TimeUs now = synchronise<Message>(receiver);
+  std::uint8_t counter = 3;
+  for (const std::uint32_t raw : error_and_not_available) {
+    const bool error = raw == error_and_not_available[0];
+    now += 10'000;
+    receiver.accept(frame_with<Message>(field, raw, counter++), now);
+    assert_int_equal(lost.validity, error ? Validity::kError : Validity::kNotAvailable);
+    assert_near(lost.value, 0.0, 0.0);
+    assert_int_equal(lost.stamp_us, now);
+    assert_int_equal(stays.validity, Validity::kValid);
+  }
+  assert_int_equal(rejected(receiver.total()), 0);
 }
 
 // Gives a receiver a message until it is taken, each at times of its own.

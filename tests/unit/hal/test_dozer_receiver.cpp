@@ -59,44 +59,13 @@ TEST(tracks) {
   assert_int_equal(rejected(feed.receiver.total()), 0);
 }
 
-TEST(operator_and_identity) {
-  DozerFeed feed;
-  bus::OperatorCommand command;
-  command.enable.value = bus::OperatorCommand::Enable::kOn;
-  command.operator_mode.value = bus::OperatorCommand::OperatorMode::kAutomatic;
-  command.task.value = bus::OperatorCommand::Task::kGrade;
-  command.speed_override_ratio.value = 0.5;
-  const TimeUs driver_us = feed.send(command);
-  const TimeUs identity_us =
-      feed.send(bus::MachineIdentity{{0xDEADBEEFU, RawState::kValid}, {7U, RawState::kValid}});
-  const OperatorInputs& driver = feed.receiver.inputs().driver;
-  assert_signal(driver.enable, 1.0, driver_us);
-  assert_signal(driver.mode, 1.0, driver_us);
-  assert_signal(driver.task, 2.0, driver_us);
-  assert_signal(driver.speed_override_ratio, 0.5, driver_us);
-  assert_signal(feed.receiver.identity().profile_hash, 3735928559.0, identity_us);
-  assert_signal(feed.receiver.identity().dbc_version, 7.0, identity_us);
-}
-
 // 32 bits have special values too, by their top byte.
 TEST(one_signal_is_lost_the_other_stays) {
   DozerReceiver receiver;
-  TimeUs now = synchronise<bus::BodyPosition>(receiver);
-  const BodyInputs& in = receiver.inputs().body;
-  const auto say = [&](std::uint32_t raw, std::uint8_t counter) {
-    now += 10'000;
-    receiver.accept(frame_with<bus::BodyPosition>(bus::BodyPosition::kPosition, raw, counter), now);
-  };
-  say(0xFE123456U, 3);
-  assert_int_equal(in.position_m.validity, Validity::kError);
-  assert_near(in.position_m.value, 0.0, 0.0);
-  assert_int_equal(in.position_m.stamp_us, now);
-  assert_int_equal(in.height_m.validity, Validity::kValid);
-  assert_near(in.height_m.value, -15.0, 1e-9);
-  say(0xFF000000U, 4);
-  assert_int_equal(in.position_m.validity, Validity::kNotAvailable);
-  assert_int_equal(in.position_m.stamp_us, now);
-  assert_int_equal(rejected(receiver.total()), 0);
+  const BodyInputs& body = receiver.inputs().body;
+  check_lost<bus::BodyPosition>(receiver, bus::BodyPosition::kPosition, {0xFE123456U, 0xFF000000U},
+                                body.position_m, body.height_m);
+  assert_near(body.height_m.value, -15.0, 1e-9);
 }
 
 // Dig is an excavator's: the frame is refused, and the controller hears of it.

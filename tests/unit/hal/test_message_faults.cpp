@@ -11,7 +11,7 @@ using namespace graben::test;
 namespace bus = dbc::excavator;
 
 // The message's own faults and no other's: three of them, until good frames have pushed them out.
-void three_wrong_frames_are_a_fault(void**) {
+TEST(three_wrong_frames_are_a_fault) {
   struct Wrong {
     Fault fault;
     void (*spoil)(CanFrame&);
@@ -53,8 +53,7 @@ void three_wrong_frames_are_a_fault(void**) {
 }
 
 // Whichever message it is.
-template <class Bus>
-void every_messages_window_counts(void**) {
+TEST_FOR_EACH(every_messages_window_counts, Bus, ExcavatorBus, DozerBus) {
   for_each(typename Bus::Protected{}, [](auto type) {
     using Message = decltype(type);
     typename Bus::Receiver receiver;
@@ -70,8 +69,7 @@ void every_messages_window_counts(void**) {
 }
 
 // One wrong frame in each of several messages is no fault; a repeated one never is.
-template <class Bus>
-void windows_are_each_messages_own(void**) {
+TEST_FOR_EACH(windows_are_each_messages_own, Bus, ExcavatorBus, DozerBus) {
   typename Bus::Receiver receiver;
   TimeUs now = kFirstFrameUs;
   for_each(typename Bus::Protected{}, [&](auto type) {
@@ -91,7 +89,7 @@ void windows_are_each_messages_own(void**) {
 }
 
 // Two senders: every second frame conflicts, the first sender's values stay.
-void two_senders_of_one_message_are_a_fault(void**) {
+TEST(two_senders_of_one_message_are_a_fault) {
   ExcavatorReceiver receiver;
   TimeUs now = synchronise<bus::BoomStroke>(receiver);
   for (std::uint8_t counter = 3; counter < 6; ++counter) {
@@ -104,7 +102,7 @@ void two_senders_of_one_message_are_a_fault(void**) {
   assert_true(receiver.message_faults(now).has(Fault::kMessageSequence));
 }
 
-void a_burst_of_one_message_is_cut(void**) {
+TEST(a_burst_of_one_message_is_cut) {
   ExcavatorReceiver receiver;
   const TimeUs now = synchronise<bus::PumpState>(receiver) + 20 * kMillisecondUs;
   for (std::uint8_t counter = 3; counter < 13; ++counter) {
@@ -118,8 +116,7 @@ void a_burst_of_one_message_is_cut(void**) {
 
 // A babbling sender costs a cycle seven frames: what it says beyond is not looked at, however good
 // it is, and three of it are a fault. In the next cycle its frames are looked at again.
-template <class Bus>
-void surplus_is_refused_unseen(void**) {
+TEST_FOR_EACH(surplus_is_refused_unseen, Bus, ExcavatorBus, DozerBus) {
   for_each(typename Bus::Protected{}, [](auto type) {
     using Message = decltype(type);
     typename Bus::Receiver receiver;
@@ -146,7 +143,7 @@ void surplus_is_refused_unseen(void**) {
 }
 
 // However many there are: the wrong CRCs are still named beside them.
-void surplus_hides_nothing(void**) {
+TEST(surplus_hides_nothing) {
   ExcavatorReceiver receiver;
   const TimeUs now = synchronise<bus::BoomStroke>(receiver) + 10 * kMillisecondUs;
   CanFrame frame = frame_of(filled<bus::BoomStroke>(2000), 3);
@@ -161,8 +158,7 @@ void surplus_hides_nothing(void**) {
 }
 
 // Nothing tells which of an unprotected message's frames is right: the newest counts, as ever.
-template <class Bus>
-void the_newest_of_an_unprotected_surplus_counts(void**) {
+TEST_FOR_EACH(the_newest_of_an_unprotected_surplus_counts, Bus, ExcavatorBus, DozerBus) {
   for_each(typename Bus::Unprotected{}, [](auto type) {
     using Message = decltype(type);
     constexpr int kFrames = 20;
@@ -185,20 +181,4 @@ void the_newest_of_an_unprotected_surplus_counts(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(three_wrong_frames_are_a_fault),
-      cmocka_unit_test(every_messages_window_counts<ExcavatorBus>),
-      cmocka_unit_test(every_messages_window_counts<DozerBus>),
-      cmocka_unit_test(windows_are_each_messages_own<ExcavatorBus>),
-      cmocka_unit_test(windows_are_each_messages_own<DozerBus>),
-      cmocka_unit_test(two_senders_of_one_message_are_a_fault),
-      cmocka_unit_test(a_burst_of_one_message_is_cut),
-      cmocka_unit_test(surplus_is_refused_unseen<ExcavatorBus>),
-      cmocka_unit_test(surplus_is_refused_unseen<DozerBus>),
-      cmocka_unit_test(surplus_hides_nothing),
-      cmocka_unit_test(the_newest_of_an_unprotected_surplus_counts<ExcavatorBus>),
-      cmocka_unit_test(the_newest_of_an_unprotected_surplus_counts<DozerBus>),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

@@ -28,8 +28,7 @@ void refuse(Receiver& receiver, const CanFrame& frame, TimeUs now, std::uint32_t
   assert_int_equal(receiver.foreign(), foreign);
 }
 
-template <class Bus>
-void nothing_received_at_the_start(void**) {
+TEST_FOR_EACH(nothing_received_at_the_start, Bus, ExcavatorBus, DozerBus) {
   const typename Bus::Receiver receiver;
   for (const auto& [value, validity, stamp_us] : seen_by(receiver)) {
     assert_int_equal(validity, Validity::kNotReceived);
@@ -37,8 +36,7 @@ void nothing_received_at_the_start(void**) {
   assert_int_equal(receiver.total().accepted, 0);
 }
 
-template <class Bus>
-void ids_are_those_of_its_messages(void**) {
+TEST_FOR_EACH(ids_are_those_of_its_messages, Bus, ExcavatorBus, DozerBus) {
   const auto ids = Bus::Receiver::ids();
   int found = 0;
   const auto find = [&](auto type) {
@@ -49,8 +47,7 @@ void ids_are_those_of_its_messages(void**) {
   assert_int_equal(found, Bus::Receiver::kMessageCount);
 }
 
-template <class Bus>
-void wrong_crc(void**) {
+TEST_FOR_EACH(wrong_crc, Bus, ExcavatorBus, DozerBus) {
   for_each(typename Bus::Protected{}, [](auto type) {
     using Message = decltype(type);
     typename Bus::Receiver receiver;
@@ -64,8 +61,7 @@ void wrong_crc(void**) {
 }
 
 // Another message's data under this id, be it one that we send.
-template <class Bus>
-void masquerade(void**) {
+TEST_FOR_EACH(masquerade, Bus, ExcavatorBus, DozerBus) {
   using Stroke = typename Bus::Stroke;
   typename Bus::Receiver receiver;
   const TimeUs now = synchronise<Stroke>(receiver);
@@ -83,8 +79,7 @@ void masquerade(void**) {
   }
 }
 
-template <class Bus>
-void wrong_counter(void**) {
+TEST_FOR_EACH(wrong_counter, Bus, ExcavatorBus, DozerBus) {
   for_each(typename Bus::Protected{}, [](auto type) {
     using Message = decltype(type);
     const auto refuse_counter = [](std::uint8_t counter) {
@@ -100,8 +95,7 @@ void wrong_counter(void**) {
   });
 }
 
-template <class Bus>
-void some_lost_is_accepted(void**) {
+TEST_FOR_EACH(some_lost_is_accepted, Bus, ExcavatorBus, DozerBus) {
   for_each(typename Bus::Protected{}, [](auto type) {
     using Message = decltype(type);
     typename Bus::Receiver receiver;
@@ -113,8 +107,7 @@ void some_lost_is_accepted(void**) {
   });
 }
 
-template <class Bus>
-void silence_needs_three_frames(void**) {
+TEST_FOR_EACH(silence_needs_three_frames, Bus, ExcavatorBus, DozerBus) {
   using Stroke = typename Bus::Stroke;
   typename Bus::Receiver receiver;
   TimeUs now = synchronise<Stroke>(receiver);
@@ -124,8 +117,7 @@ void silence_needs_three_frames(void**) {
          &LinkCounters::synchronising);
 }
 
-template <class Bus>
-void wrong_kind_and_length(void**) {
+TEST_FOR_EACH(wrong_kind_and_length, Bus, ExcavatorBus, DozerBus) {
   const auto test = [](auto type) {
     using Message = decltype(type);
     typename Bus::Receiver receiver;
@@ -153,8 +145,7 @@ void wrong_kind_and_length(void**) {
   for_each(typename Bus::Unprotected{}, test);
 }
 
-template <class Bus>
-void error_frame_is_nobodys(void**) {
+TEST_FOR_EACH(error_frame_is_nobodys, Bus, ExcavatorBus, DozerBus) {
   using Stroke = typename Bus::Stroke;
   typename Bus::Receiver receiver;
   const TimeUs now = synchronise<Stroke>(receiver);
@@ -167,8 +158,7 @@ void error_frame_is_nobodys(void**) {
   assert_int_equal(receiver.link(Stroke::kId).wrong_kind, 0);
 }
 
-template <class Bus>
-void foreign_ids_are_counted_apart(void**) {
+TEST_FOR_EACH(foreign_ids_are_counted_apart, Bus, ExcavatorBus, DozerBus) {
   using Stroke = typename Bus::Stroke;
   typename Bus::Receiver receiver;
   const TimeUs now = synchronise<Stroke>(receiver);
@@ -202,8 +192,7 @@ std::uint32_t beyond(const dbc::Field& field) {
   return exists ? static_cast<std::uint32_t>(next) : 0U;
 }
 
-template <class Bus>
-void out_of_range_is_refused_as_a_whole(void**) {
+TEST_FOR_EACH(out_of_range_is_refused_as_a_whole, Bus, ExcavatorBus, DozerBus) {
   int fields = 0;
   const auto test = [&fields](auto type) {
     using Message = decltype(type);
@@ -227,8 +216,7 @@ void out_of_range_is_refused_as_a_whole(void**) {
   assert_in_range(fields, 15, 40);
 }
 
-template <class Bus>
-void sender_says_error_or_not_available(void**) {
+TEST_FOR_EACH(sender_says_error_or_not_available, Bus, ExcavatorBus, DozerBus) {
   using Command = typename Bus::OperatorCommand;
   typename Bus::Receiver receiver;
   TimeUs now = synchronise<Command>(receiver);
@@ -243,29 +231,51 @@ void sender_says_error_or_not_available(void**) {
   assert_int_equal(rejected(receiver.total()), 0);
 }
 
+TEST_FOR_EACH(operator_and_identity, Bus, ExcavatorBus, DozerBus) {
+  Feed<typename Bus::Receiver> feed;
+  using Command = typename Bus::OperatorCommand;
+  Command command;
+  command.enable.value = Command::Enable::kOn;
+  command.operator_mode.value = Command::OperatorMode::kAutomatic;
+  command.task.value = Bus::kTask;
+  command.speed_override_ratio.value = 0.5;
+  command.task_number.value = 7;
+  const TimeUs driver_us = feed.send(command);
+  const TimeUs identity_us = feed.send(typename Bus::MachineIdentity{
+      {0xDEADBEEFU, dbc::RawState::kValid}, {7U, dbc::RawState::kValid}});
+  const OperatorInputs& driver = feed.receiver.inputs().driver;
+  assert_signal(driver.enable, 1.0, driver_us);
+  assert_signal(driver.mode, 1.0, driver_us);
+  assert_signal(driver.task, Bus::kTaskSeen, driver_us);
+  assert_signal(driver.speed_override_ratio, 0.5, driver_us);
+  assert_signal(driver.task_number, 7.0, driver_us);
+  assert_signal(feed.receiver.identity().profile_hash, 3735928559.0, identity_us);
+  assert_signal(feed.receiver.identity().dbc_version, 7.0, identity_us);
+}
+
 // The other end is what we are if both numbers say so; and as sure as the worse of the two.
-template <class Bus, class Identity, std::uint8_t version>
-void same_machine(void**) {
+TEST_FOR_EACH(same_machine, Bus, ExcavatorBus, DozerBus) {
   constexpr std::uint32_t kOwn = 0xDEADBEEFU;
+  constexpr std::uint8_t kVersion = Bus::kDbcVersion;
   typename Bus::Receiver receiver;
   assert_int_equal(receiver.same_machine(kOwn).validity, Validity::kNotReceived);
   assert_false(receiver.same_machine(kOwn).value);
   const auto told = [&](std::uint32_t hash, dbc::Count dbc_version) {
-    Identity message;
+    typename Bus::MachineIdentity message;
     message.profile_hash.value = hash;
     message.dbc_version = dbc_version;
     receiver.accept(frame_of(message, 0), kFirstFrameUs);
     return receiver.same_machine(kOwn);
   };
-  assert_true(told(kOwn, {version, dbc::RawState::kValid}).value);
+  assert_true(told(kOwn, {kVersion, dbc::RawState::kValid}).value);
   assert_int_equal(receiver.same_machine(kOwn).stamp_us, kFirstFrameUs);
-  assert_false(told(kOwn, {version + 1U, dbc::RawState::kValid}).value);
-  assert_false(told(kOwn + 1U, {version, dbc::RawState::kValid}).value);
-  assert_int_equal(told(kOwn, {version, dbc::RawState::kNotAvailable}).validity,
+  assert_false(told(kOwn, {kVersion + 1U, dbc::RawState::kValid}).value);
+  assert_false(told(kOwn + 1U, {kVersion, dbc::RawState::kValid}).value);
+  assert_int_equal(told(kOwn, {kVersion, dbc::RawState::kNotAvailable}).validity,
                    Validity::kNotAvailable);
 }
 
-void rejected_sum_saturates(void**) {
+TEST(rejected_sum_saturates) {
   LinkCounters counters;
   counters.wrong_crc = UINT32_MAX;
   assert_int_equal(rejected(counters), UINT32_MAX);
@@ -275,32 +285,4 @@ void rejected_sum_saturates(void**) {
 
 }  // namespace
 
-// clang-format off
-#define ON_BOTH_BUSES(test) cmocka_unit_test(test<ExcavatorBus>), cmocka_unit_test(test<DozerBus>)
-// clang-format on
-
-int main() {
-  namespace excavator = dbc::excavator;
-  namespace dozer = dbc::dozer;
-  const auto of_excavator =
-      same_machine<ExcavatorBus, excavator::MachineIdentity, excavator::kDbcVersion>;
-  const auto of_dozer = same_machine<DozerBus, dozer::MachineIdentity, dozer::kDbcVersion>;
-  const CMUnitTest tests[] = {
-      ON_BOTH_BUSES(nothing_received_at_the_start),
-      ON_BOTH_BUSES(ids_are_those_of_its_messages),
-      ON_BOTH_BUSES(wrong_crc),
-      ON_BOTH_BUSES(masquerade),
-      ON_BOTH_BUSES(wrong_counter),
-      ON_BOTH_BUSES(some_lost_is_accepted),
-      ON_BOTH_BUSES(silence_needs_three_frames),
-      ON_BOTH_BUSES(wrong_kind_and_length),
-      ON_BOTH_BUSES(error_frame_is_nobodys),
-      ON_BOTH_BUSES(foreign_ids_are_counted_apart),
-      ON_BOTH_BUSES(out_of_range_is_refused_as_a_whole),
-      ON_BOTH_BUSES(sender_says_error_or_not_available),
-      cmocka_unit_test(of_excavator),
-      cmocka_unit_test(of_dozer),
-      cmocka_unit_test(rejected_sum_saturates),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

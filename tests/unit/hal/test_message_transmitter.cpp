@@ -34,8 +34,7 @@ struct Dozer {
 template <class Kind>
 using SenderOf = Sender<typename Kind::Transmitter>;
 
-template <class Kind>
-void an_overrun_does_not_burst(void**) {
+TEST_FOR_EACH(an_overrun_does_not_burst, Kind, Excavator, Dozer) {
   SenderOf<Kind> sender;
   TimeUs now = kStartUs;
   sender.call(now);
@@ -54,8 +53,7 @@ void an_overrun_does_not_burst(void**) {
   assert_int_equal(statuses, 5);
 }
 
-template <class Kind>
-void a_clock_that_jumps_back_does_not_silence(void**) {
+TEST_FOR_EACH(a_clock_that_jumps_back_does_not_silence, Kind, Excavator, Dozer) {
   SenderOf<Kind> sender;
   sender.call(kStartUs);
   sender.call(kStartUs - 2'000'000);
@@ -64,8 +62,7 @@ void a_clock_that_jumps_back_does_not_silence(void**) {
   assert_non_null(sender.template find<typename Kind::SpoolCommand>());
 }
 
-template <class Kind>
-void frames_are_whole(void**) {
+TEST_FOR_EACH(frames_are_whole, Kind, Excavator, Dozer) {
   SenderOf<Kind> sender;
   sender.call(kStartUs);
   assert_int_equal(sender.out[0].id, Kind::SpoolCommand::kId);  // the most urgent goes first
@@ -90,8 +87,7 @@ typename Kind::EcuHealth health_of(SenderOf<Kind>& sender) {
   return {};
 }
 
-template <class Kind>
-void health(void**) {
+TEST_FOR_EACH(health, Kind, Excavator, Dozer) {
   SenderOf<Kind> well;
   well.diagnosis.process = {1, 2, 3, true};
   well.diagnosis.dropped_frames = 4;
@@ -124,8 +120,7 @@ std::uint32_t spn_of(const Trouble& message) {
   return message.spn_high.value << 16U | message.spn_low.value;
 }
 
-template <class Kind>
-void trouble_codes(void**) {
+TEST_FOR_EACH(trouble_codes, Kind, Excavator, Dozer) {
   SenderOf<Kind> sender;
   sender.call(kStartUs);
   auto message = sender.template sent<typename Kind::DM1>();
@@ -154,8 +149,7 @@ void trouble_codes(void**) {
   assert_int_equal(message.amber_warning_lamp.value, Kind::DM1::AmberWarningLamp::kOn);
 }
 
-template <class Kind>
-void status_names_every_fault(void**) {
+TEST_FOR_EACH(status_names_every_fault, Kind, Excavator, Dozer) {
   for (int code = 0; code < kFaultCount; ++code) {
     SenderOf<Kind> sender;
     sender.outputs.status.fault = static_cast<Fault>(code);
@@ -169,8 +163,7 @@ void status_names_every_fault(void**) {
   }
 }
 
-template <class Kind>
-void status(void**) {
+TEST_FOR_EACH(status, Kind, Excavator, Dozer) {
   SenderOf<Kind> sender;
   MachineStatus& out = sender.outputs.status;
   out.mode = EcuMode::kActive;
@@ -193,8 +186,7 @@ void status(void**) {
   assert_int_equal(identity.dbc_version.value, Kind::kDbcVersion);
 }
 
-template <class Kind>
-void status_saturates_or_says_error(void**) {
+TEST_FOR_EACH(status_saturates_or_says_error, Kind, Excavator, Dozer) {
   SenderOf<Kind> sender;
   sender.outputs.status.lambda = kNan;
   sender.outputs.status.mode = static_cast<EcuMode>(9);
@@ -215,18 +207,4 @@ void status_saturates_or_says_error(void**) {
 
 }  // namespace
 
-#define ON_BOTH(test) cmocka_unit_test(test<Excavator>), cmocka_unit_test(test<Dozer>)
-
-int main() {
-  const CMUnitTest tests[] = {
-      ON_BOTH(an_overrun_does_not_burst),
-      ON_BOTH(a_clock_that_jumps_back_does_not_silence),
-      ON_BOTH(frames_are_whole),
-      ON_BOTH(health),
-      ON_BOTH(trouble_codes),
-      ON_BOTH(status_names_every_fault),
-      ON_BOTH(status),
-      ON_BOTH(status_saturates_or_says_error),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()

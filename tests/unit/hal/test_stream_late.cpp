@@ -37,8 +37,7 @@ TimeUs refused_at(TimeUs passed_us) {
   return -1;
 }
 
-template <class Bus>
-void a_slow_queue_is_seen(void**) {
+TEST_FOR_EACH(a_slow_queue_is_seen, Bus, ExcavatorBus, DozerBus) {
   for_each(typename Bus::Protected{}, [](auto type) {
     using Message = decltype(type);
     constexpr TimeUs kMessageCycleUs = Message::kCycleTimeMs * kMillisecondUs;
@@ -58,7 +57,7 @@ void a_slow_queue_is_seen(void**) {
 }
 
 // Lost frames, a sender that pauses, one that starts anew; 70 ms in all.
-void what_is_lost_or_begins_anew_is_no_lag(void**) {
+TEST(what_is_lost_or_begins_anew_is_no_lag) {
   using Message = dbc::excavator::BoomStroke;
   ExcavatorReceiver receiver;
   TimeUs now = synchronise<Message>(receiver);
@@ -85,7 +84,7 @@ void what_is_lost_or_begins_anew_is_no_lag(void**) {
 }
 
 // A queue that is worked off is fresh again; one that falls silent is no longer late but missing.
-void lag_ends_with_the_queue_or_in_silence(void**) {
+TEST(lag_ends_with_the_queue_or_in_silence) {
   using Message = dbc::excavator::BoomStroke;
   ExcavatorReceiver receiver;
   TimeUs now = synchronise<Message>(receiver);
@@ -108,9 +107,8 @@ void lag_ends_with_the_queue_or_in_silence(void**) {
 }
 
 // Whatever a controller of the kind sends.
-template <class Bus, class Transmitter>
-void own_ids_are_another_controllers(void**) {
-  for (const std::uint32_t id : Transmitter::ids()) {
+TEST_FOR_EACH(own_ids_are_another_controllers, Bus, ExcavatorBus, DozerBus) {
+  for (const std::uint32_t id : Bus::Transmitter::ids()) {
     typename Bus::Receiver receiver;
     CanFrame frame;
     frame.id = id;
@@ -127,7 +125,7 @@ void own_ids_are_another_controllers(void**) {
 }
 
 // Others' frames are not, nor what asks for ours.
-void other_ids_are_no_controllers(void**) {
+TEST(other_ids_are_no_controllers) {
   DozerReceiver receiver;
   CanFrame frame;
   frame.length = 8;
@@ -143,15 +141,4 @@ void other_ids_are_no_controllers(void**) {
 
 }  // namespace
 
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(a_slow_queue_is_seen<ExcavatorBus>),
-      cmocka_unit_test(a_slow_queue_is_seen<DozerBus>),
-      cmocka_unit_test(what_is_lost_or_begins_anew_is_no_lag),
-      cmocka_unit_test(lag_ends_with_the_queue_or_in_silence),
-      cmocka_unit_test((own_ids_are_another_controllers<ExcavatorBus, ExcavatorTransmitter>)),
-      cmocka_unit_test((own_ids_are_another_controllers<DozerBus, DozerTransmitter>)),
-      cmocka_unit_test(other_ids_are_no_controllers),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
-}
+RUN_TESTS()
