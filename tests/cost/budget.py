@@ -5,7 +5,8 @@
 Costs are counted in units: processor seconds over those of a reference compile (reference.cpp) that was made
 in the same run, so that a busy or slow machine turns nothing red. RECORDS has stages.txt and reference.txt,
 lines of a name and seconds; BUILD, the release, has costs.txt (cost.cmake) and Ninja's log. Red a tenth above
-the budget (budget.toml), with the names of what grew. --write: this run's costs become those that a later one
+the budget (budget.toml), with the names of what grew; red where a test costs more than two units and proofs.toml does not say what
+only it proves. --write: this run's costs become those that a later one
 is compared with, here and in tests/README.md.
 """
 
@@ -54,11 +55,12 @@ def dearest(rows: dict[str, float], count: int) -> list[tuple[str, float]]:
 
 
 def table(stages: dict, tests: dict, objects: dict, unit_s: float) -> str:
+    proofs = tomllib.loads((HERE / "proofs.toml").read_text(encoding="utf-8"))
     lines = [f"One unit is a compile of `tests/cost/reference.cpp`, {unit_s:.2f} processor seconds when this was made.", "",
              "| | units | seconds |", "|---|---|---|"]
     named = [("`./run`, fresh: build and one dig", stages.get("first sight", 0.0)), ("`./test`, fresh", sum(stages.values())),
              *((f"stage: {name}", seconds) for name, seconds in dearest(stages, 6)),
-             *((f"test: `{name}`", seconds) for name, seconds in dearest(tests, 10)),
+             *((f"test: `{name}`: {proofs.get(name, '')}", seconds) for name, seconds in dearest(tests, 10)),
              *((f"object: `{name}` (wall clock)", seconds) for name, seconds in dearest(objects, 5))]
     lines += [f"| {name} | {seconds / unit_s:.0f} | {seconds:.0f} |" for name, seconds in named]
     return "\n".join(lines) + "\n"
@@ -76,9 +78,12 @@ def judged(budget: dict, stages: dict, tests: dict, unit_s: float) -> list[str]:
     now = tests | {f"stage {name}": seconds for name, seconds in stages.items()}
     grown = sorted(((seconds / unit_s - before.get(name, 0.0), name) for name, seconds in now.items()
                     if seconds / unit_s > max(KEPT, GREW * before.get(name, 0.0))), reverse=True)
+    proofs = tomllib.loads((HERE / "proofs.toml").read_text(encoding="utf-8"))
+    unproven = [f"cost: {name} costs {seconds / unit_s:.1f} units, and tests/cost/proofs.toml does not say what only it proves"
+                for name, seconds in tests.items() if seconds / unit_s > 2.0 * KEPT and name not in proofs]
     if problems:
         problems += [f"cost: {name} grew by {more:.0f} units, from {before.get(name, 0.0):.0f}" for more, name in grown[:20]]
-    return problems
+    return problems + unproven
 
 
 def write(budget: dict, stages: dict, tests: dict, objects: dict, unit_s: float) -> None:
