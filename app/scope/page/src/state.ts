@@ -8,7 +8,7 @@ import {messageStates} from './model/integrity';
 import {machines_of} from './model/on_bus';
 import {PagePlayhead} from './model/playhead';
 import {LIVE_KEEP_S, PageStore} from './model/store';
-import type {Link, PageState} from './view/page_state';
+import type {Link, PageState} from './view/basics/page_state';
 
 const LIVE_WINDOW_S = 30;
 const REFUSED_MS = 8000;

@@ -15,7 +15,7 @@ import {blade_walk} from '../src/scene/edges';
 import {SharedMaterials} from '../src/scene/materials';
 import {dozer_across_now} from '../src/scene/machine_state';
 import {dozer_soil, soil_history} from '../src/scene/soil';
-import {behind_span, behind_words, ground_behind, off_digits, tilts} from '../src/view/behind_view';
+import {behind_span, behind_words, ground_behind, off_digits, tilts} from '../src/view/panels/behind_view';
 import {DOZER_9T, EXCAVATOR_22T} from './machines';
 import {type Run, run_of, store_of_run} from './runs';
 

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import type {Built} from '../src/model/api';
-import {band_of, built_map, draw_map, kBands, map_plan} from '../src/view/built_map';
+import {band_of, built_map, draw_map, kBands, map_plan} from '../src/view/panels/built_map';
 import {fake_document, type FakeNode} from './dom';
 
 fake_document();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import type {SceneFrame} from '../src/view/scene_frame';
-import {offer_film} from '../src/view/film';
+import type {SceneFrame} from '../src/view/page/scene_frame';
+import {offer_film} from '../src/view/page/film';
 import {page, status, stroke} from './status';
 
 test('a moment of a film is shown when all is drawn, with the soil of a long log in it', async () => {

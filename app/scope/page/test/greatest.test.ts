@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {greatest_of} from '../src/view/greatest';
+import {greatest_of} from '../src/view/plots/greatest';
 
 const curve = (values: readonly number[]) =>
   ({time_s: Float64Array.from(values, (_, k) => k), value: Float64Array.from(values)});

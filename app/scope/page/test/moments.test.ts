@@ -6,7 +6,7 @@ import {bytes_of} from './make';
 import {page, status, stroke} from './status';
 import {CandumpParser} from '../src/model/candump';
 import {bookmarks_of} from '../src/model/moment';
-import {Moments} from '../src/view/moments';
+import {Moments} from '../src/view/panels/moments';
 
 fake_document();
 

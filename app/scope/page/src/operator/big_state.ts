@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The one word that is read from afar, and the sentence under it.
 
-import {alarms_of} from '../view/alarm_rules';
-import {count, time_words} from '../view/format';
-import {is_live, type PageState} from '../view/page_state';
-import {snapshot, type Mode} from '../view/snapshot';
-import type {PageWords} from '../view/words';
+import {alarms_of} from '../view/faults/alarm_rules';
+import {count, time_words} from '../view/basics/format';
+import {is_live, type PageState} from '../view/basics/page_state';
+import {snapshot, type Mode} from '../view/basics/snapshot';
+import type {PageWords} from '../view/basics/words';
 
 export interface BigState {
   word: string;

@@ -4,8 +4,8 @@
 import type {ExcavatorMachine, Fence, Task, Vector2} from '../model/api';
 import {keep_out_ring} from '../scene/keep_out_ring';
 import type {ShownTask} from '../scene/shown_task';
-import type {Picture} from '../view/picture';
-import type {Metres, Span} from '../view/picture';
+import type {Picture} from '../view/basics/picture';
+import type {Metres, Span} from '../view/basics/picture';
 
 /// A line over u and v: `across` . (u, v) = offset; beyond it, along `across`, nothing may be.
 export interface Bound {

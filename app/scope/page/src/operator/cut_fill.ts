@@ -5,7 +5,7 @@ import type {
   DozerMachine, ExcavatorMachine, FrameStore, Machine, Task, Vector2, Vector3,
 } from '../model/api';
 import {ahead_on_path, designHeight, fresh} from '../model/wanted';
-import {fixed} from '../view/format';
+import {fixed} from '../view/basics/format';
 import {dozer_state, excavator_state} from '../scene/machine_state';
 import type {ShownTask} from '../scene/shown_task';
 

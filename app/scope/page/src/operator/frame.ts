@@ -8,7 +8,7 @@ import type {HeightField} from '../scene/height_field';
 import {type ShownTask, TaskChoice} from '../scene/shown_task';
 import type {TerrainHistory} from '../scene/terrain_history';
 import {type SceneColours, scene_colours} from '../scene/theme';
-import type {PageState} from '../view/page_state';
+import type {PageState} from '../view/basics/page_state';
 
 export type MachineNow =
   | {kind: 'excavator'; machine: ExcavatorMachine; at: ReturnType<typeof excavator_state>}

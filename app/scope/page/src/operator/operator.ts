@@ -4,11 +4,11 @@
 
 import {look} from '../feed/look_feed';
 import {State} from '../state';
-import {el} from '../view/dom';
-import {FrameRate} from '../view/frame_rate';
-import {snapshot} from '../view/snapshot';
-import {create_theme} from '../view/theme';
-import {page_words} from '../view/words';
+import {el} from '../view/basics/dom';
+import {FrameRate} from '../view/basics/frame_rate';
+import {snapshot} from '../view/basics/snapshot';
+import {create_theme} from '../view/basics/theme';
+import {page_words} from '../view/basics/words';
 import {off_of, type Off} from './cut_fill';
 import {fit_digits} from './fit_digits';
 import {FrameMaker} from './frame';

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The parts beside the pictures: the state, the digits, the lights, lambda, what is missing.
 
-import {limit_colour, limit_key} from '../view/limit_colours';
-import {el, Rows, set_attribute, set_shown, set_text} from '../view/dom';
-import {count} from '../view/format';
-import type {PageState} from '../view/page_state';
-import {snapshot} from '../view/snapshot';
-import type {ThemeSwitch} from '../view/theme';
-import type {PageWords} from '../view/words';
+import {limit_colour, limit_key} from '../view/limits/limit_colours';
+import {el, Rows, set_attribute, set_shown, set_text} from '../view/basics/dom';
+import {count} from '../view/basics/format';
+import type {PageState} from '../view/basics/page_state';
+import {snapshot} from '../view/basics/snapshot';
+import type {ThemeSwitch} from '../view/basics/theme';
+import type {PageWords} from '../view/basics/words';
 import {big_state, missing, not_live} from './big_state';
 import {LIGHTS, lights_of, off_words, type Off} from './cut_fill';
 import {Shrinking, tell_em} from './fit_words';

@@ -7,7 +7,7 @@ import {reach_m} from '../scene/soil_shape';
 import {draw_bound, in_plan, own_fences, ring_of, shown_task} from './bounds';
 import {dozer_above, excavator_above, type Flat} from '../scene/figure';
 import type {Frame} from './frame';
-import {type Metres, Picture, type Span} from '../view/picture';
+import {type Metres, Picture, type Span} from '../view/basics/picture';
 
 /// Around a dozer, m.
 const BEHIND_M = 4;

@@ -3,8 +3,8 @@
 /// there is nothing here to press.
 
 import {moment_of} from '../model/moment';
-import type {PageState} from '../view/page_state';
-import {telling_start} from '../view/first_sight';
+import type {PageState} from '../view/basics/page_state';
+import {telling_start} from '../view/page/first_sight';
 
 export class Replay {
   private begun: unknown = null;

@@ -7,7 +7,7 @@ import {reach_m} from '../scene/soil_shape';
 import {draw_bound, in_section, kept_out, own_fences, shown_task} from './bounds';
 import {dozer_side, excavator_side, type Flat} from '../scene/figure';
 import type {Frame} from './frame';
-import {type Metres, Picture, type Span} from '../view/picture';
+import {type Metres, Picture, type Span} from '../view/basics/picture';
 
 /// Before and behind a dozer's edge, m.
 const AHEAD_M = 3.2;
