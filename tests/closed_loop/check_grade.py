@@ -11,8 +11,9 @@ import sys
 import tempfile
 
 import report_page
+from grading import MM, read
+from grading import figures_of as grade
 
-MM = 1e-3
 FIGURES = {
     "max_error_true_m", "rmse_error_true_m", "max_error_measured_m", "rmse_error_measured_m", "time_s",
     "passes", "ground_left_m", "over_cut_m", "halt_s", "mean_speed_mps", "flow_share_max", "flow_share_reported_max", "flow_above_share",
@@ -48,15 +49,6 @@ RUNS = (
     ("errors", ("--errors", "all", "--seed", "3"),
      {"max_error_true_m": (1 * MM, 12 * MM), "rmse_error_measured_m": (0.5 * MM, 5 * MM)}),
 )
-
-
-def grade(graben, folder, *options):
-    summary = os.path.join(folder, "summary.json")
-    done = subprocess.run([graben, "grade", "--out", folder, "--summary", summary, *options],
-                          capture_output=True, text=True, timeout=120)
-    assert done.returncode == 0, f"{' '.join(options)}: {done.stdout}{done.stderr}"
-    with open(summary, encoding="utf-8") as stream:
-        return json.load(stream)
 
 
 def content(folder, name):
@@ -120,8 +112,7 @@ def fastest_constant(graben, folder):
     coarse = min(value for value in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6) if value > speed)
     finer = [round(0.01 * i, 2) for i in range(round(100 * speed) + 1, round(100 * coarse))]
     assert finer and set(finer) <= {trial[0] for trial in trials if trial[2]}, trials
-    with open(summary, encoding="utf-8") as stream:
-        figures = json.load(stream)
+    figures = json.loads(read(summary))
     assert abs(figures["time_s"] - float(found[2])) < 0.006, figures["time_s"]
     assert abs(figures["max_error_true_m"] * 1e3 - within[-1][1]) < 0.06
 

@@ -25,13 +25,9 @@ void inject_foreign(Rig<Kind>& rig, int count) {
 
 template <class Kind>
 void babble(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   rig.bus.set_babble(0);
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = {Fault::kTransmitFailed, Fault::kStrokeMissing};
-  stop.detect_us = 50 * kMillisecondUs;
+  Stop stop{rig.at_us(), {Fault::kTransmitFailed, Fault::kStrokeMissing}, 50 * kMillisecondUs};
   stop.bus_carries = false;
   stop.cure = [&rig] { rig.bus.set_babble(std::nullopt); };
   trial.expect_stop(stop);
@@ -48,40 +44,28 @@ void low_priority_flood(Trial<Kind>& trial) {
 /// Once, or again and again for up to 300 ms.
 template <class Kind>
 void bus_off(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const TimeUs until_us = rig.now_us + (trial.odd() ? 0 : trial.any_time(0, 300'000));
   rig.before_ecu = [&rig, until_us] {
     if (rig.now_us <= until_us) {
       rig.ecu_port.set_state(CanPortState::kBusOff);
     }
   };
-  Stop stop;
-  stop.since_us = rig.now_us;
-  stop.any = {Fault::kBusOff};
-  stop.detect_us = kCycle_us;
-  stop.bus_carries = trial.odd();
-  stop.neutral_us = trial.odd() ? kCycle_us : 0;
-  trial.expect_stop(stop);
+  trial.expect_stop(
+      {rig.now_us, {Fault::kBusOff}, kCycle_us, trial.odd() ? kCycle_us : 0, trial.odd()});
 }
 
 /// Nobody acknowledges: the controller is error-passive, and by every second seed its frames reach
 /// nobody.
 template <class Kind>
 void error_passive(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const bool unheard = trial.odd();
   rig.ecu_port.set_state(CanPortState::kErrorPassive);
   if (unheard) {
     rig.tamper = [&rig](CanFrame&, const LoopbackPort* from) { return !rig.from_ecu(from); };
   }
-  Stop stop;
-  stop.since_us = rig.now_us;
-  stop.any = {Fault::kBusPassive};
-  stop.detect_us = kCycle_us;
-  stop.bus_carries = !unheard;
-  stop.neutral_us = unheard ? 0 : kCycle_us;
+  Stop stop{rig.now_us, {Fault::kBusPassive}, kCycle_us, unheard ? 0 : kCycle_us, !unheard};
   stop.cure = [&rig] {
     rig.tamper = nullptr;
     rig.ecu_port.set_state(CanPortState::kActive);
@@ -91,13 +75,9 @@ void error_passive(Trial<Kind>& trial) {
 
 template <class Kind>
 void interface_down(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   rig.ecu_port.set_state(CanPortState::kDown);
-  Stop stop;
-  stop.since_us = rig.now_us;
-  stop.any = {Fault::kBusDown};
-  stop.detect_us = kCycle_us;
+  Stop stop{rig.now_us, {Fault::kBusDown}, kCycle_us};
   stop.bus_carries = false;
   stop.cure = [&rig] { rig.ecu_port.set_state(CanPortState::kClosed); };
   trial.expect_stop(stop);
@@ -106,8 +86,7 @@ void interface_down(Trial<Kind>& trial) {
 /// A full queue for one cycle costs its frames; for two to thirty it stops.
 template <class Kind>
 void queue_full(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const std::uint32_t before = rig.ecu->dropped();
   TimeUs until_us = rig.now_us;
   rig.before_ecu = [&rig, &until_us] { rig.ecu_port.set_send_fails(rig.now_us <= until_us); };
@@ -115,13 +94,11 @@ void queue_full(Trial<Kind>& trial) {
   trial.check(rig.ecu->dropped() > before, "the dropped frames are not counted");
   const int cycles = trial.odd() ? 2 : 3 + static_cast<int>(trial.any_of(28));
   until_us = rig.now_us + (cycles - 1) * kCycle_us;
-  Stop stop;
-  stop.since_us = rig.now_us;
-  stop.any = {Fault::kTransmitFailed};
-  stop.detect_us = 20 * kMillisecondUs;
-  stop.bus_carries = trial.odd();
-  stop.neutral_us = trial.odd() ? 20 * kMillisecondUs : 0;
-  trial.expect_stop(stop);
+  trial.expect_stop({rig.now_us,
+                     {Fault::kTransmitFailed},
+                     20 * kMillisecondUs,
+                     trial.odd() ? 20 * kMillisecondUs : 0,
+                     trial.odd()});
   rig.before_ecu = nullptr;
 }
 
@@ -130,8 +107,7 @@ template <class Kind>
 void receive_overrun(Trial<Kind>& trial) {
   constexpr std::size_t kShortQueue = 24;
   trial.set_queue(kShortQueue);
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   TimeUs until_us = rig.now_us + kCycle_us;
   rig.before_all = [&rig, &until_us] {
     if (rig.now_us <= until_us) {
@@ -140,9 +116,7 @@ void receive_overrun(Trial<Kind>& trial) {
   };
   trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
   trial.check(rig.ecu_port.overflow_count() > 0, "nothing was lost");
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = Kind::missing();
+  Stop stop{rig.at_us(), Kind::missing()};
   stop.any.push_back(Fault::kOperatorMissing);
   // Of a body of which some frames come and some do not.
   stop.any.push_back(Fault::kPoseDisagrees);
@@ -158,8 +132,7 @@ void stale_at_the_controller(Trial<Kind>& trial) {
   auto& rig = *trial.rig;
   rig.closing.emplace(false);
   rig.ecu_on = false;
-  Stop stop;
-  stop.since_us = rig.at_us();
+  Stop stop{rig.at_us()};
   rig.run(30 * kMillisecondUs);
   rig.ask(false, Task::kNone);
   rig.run(trial.any_time(30'000, 200'000));
@@ -190,8 +163,7 @@ void stale_at_the_valve(Trial<Kind>& trial) {
     return !rig.from_ecu(from);
   };
   rig.closing.emplace(false);
-  Stop stop;
-  stop.since_us = rig.at_us();
+  Stop stop{rig.at_us()};
   rig.run(trial.any_time(40'000, 140'000));
   rig.ecu_on = false;
   rig.run(trial.any_time(100'000, 300'000));

@@ -35,9 +35,7 @@ void engine_stands(Trial<Kind>& trial) {
   if (trial.odd()) {
     trial.work();
     rig.plant.faults().engine_ratio = not_running_ratio(trial);
-    Stop stop;
-    stop.since_us = rig.now_us;
-    stop.any = {Fault::kEngineStopped};
+    Stop stop{rig.now_us, {Fault::kEngineStopped}};
     // EEC1 comes every 20 ms.
     stop.detect_us = 30 * kMillisecondUs;
     stop.cure = [&rig] { rig.plant.faults().engine_ratio = 1.0; };
@@ -80,10 +78,8 @@ void late_too_often(Trial<Kind>& trial) {
   const unsigned kind = static_cast<unsigned>(trial.seed() % 3);
   const int missed = kind == 0 ? 3 : 1;
   const int between = kind == 0 ? 3 : kind == 1 ? 0 : 2;
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = {Fault::kCycleOverrun};
-  stop.detect_us = (kind == 0 ? 200 : kind == 1 ? 600 : 1000) * kMillisecondUs;
+  const TimeUs within_ms = kind == 0 ? 200 : kind == 1 ? 600 : 1000;
+  Stop stop{rig.at_us(), {Fault::kCycleOverrun}, within_ms * kMillisecondUs};
   for (int round = 0; round < 40 && in_motion(rig.mode()); ++round) {
     miss(rig, missed);
     for (int n = 0; n < between + 1 && in_motion(rig.mode()); ++n) {
@@ -132,8 +128,7 @@ constexpr std::uint32_t kNotAvailable16 = 0xFFFF;
 /// Any value that is measured or asked for is good and bad by turns, at 50, 25 or 12.5 Hz.
 template <class Kind>
 void toggles(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const TimeUs half_us = kCycle_us << trial.any_of(3);
   enum class Value { kToggles, kBad, kGood } value = Value::kToggles;
   const auto is_bad = [&rig, &value, half_us] {
@@ -194,8 +189,7 @@ void toggles(Trial<Kind>& trial) {
 /// Another task, or the same after none, with the deadman held: the machine comes to rest before.
 template <class Kind>
 void task_changes(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   // None for some cycles, of which the operator says every second; a kind with one task can change
   // to nothing else.
   rig.ask(true, Task::kNone);
@@ -238,8 +232,7 @@ void does_not_get_on(Trial<Kind>& trial) {
   const bool said = rig.run_until(
       60 * kSecondUs, [&rig] { return rig.outputs().status.faults.has(Fault::kStalling); });
   trial.check(said && rig.mode() == EcuMode::kActive, "it is not said");
-  Stop stop;
-  stop.since_us = rig.now_us;
+  Stop stop{rig.now_us};
   rig.run(kSecondUs);
   trial.check(rig.mode() == EcuMode::kActive, "it stops at once");
   trial.check(rig.record.dm1_named(Fault::kStalling, 0, rig.now_us), "not on the bus");

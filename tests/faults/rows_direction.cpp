@@ -17,13 +17,7 @@ constexpr double kMostStroke_m = 0.06;
 const std::vector<Fault> kWrongWay = {Fault::kWrongDirection, Fault::kMotionImplausible,
                                       Fault::kUncommandedMotion, Fault::kStrokeStuck};
 
-Stop wrong_way(TimeUs since_us, TimeUs within_us) {
-  Stop stop;
-  stop.since_us = since_us;
-  stop.any = kWrongWay;
-  stop.detect_us = within_us;
-  return stop;
-}
+Stop wrong_way(TimeUs since_us, TimeUs within_us) { return {since_us, kWrongWay, within_us}; }
 
 /// The platform turns the wrong way: from its first motion on.
 void swing_reversed(Trial<Excavator>& trial) {

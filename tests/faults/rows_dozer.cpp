@@ -19,9 +19,7 @@ void displacement_stuck(Trial<Dozer>& trial) {
   const std::size_t track = any_track(trial);
   plant::PathFaults& path = rig.plant.faults().path[track];
   const double ratio = rig.plant.plant().pump_ratios()[track];
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = {Fault::kDisplacementDisagrees};
+  Stop stop{rig.at_us(), {Fault::kDisplacementDisagrees}};
   // When it is told another one: from one slope of the design to the next.
   stop.detect_us = Dozer::kOpensWithin_us;
   if (trial.odd()) {
@@ -50,10 +48,7 @@ void displacement_runs_away(Trial<Dozer>& trial) {
                               return cycles * kCycle_us > kSettled_us;
                             }),
               "the motor never stays at full displacement");
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = {Fault::kDisplacementRunaway};
-  stop.detect_us = 400 * kMillisecondUs;
+  Stop stop{rig.at_us(), {Fault::kDisplacementRunaway}, 400 * kMillisecondUs};
   stop.brake_at_once = true;
   stop.cure = [&path] {
     path.pump = {};
@@ -84,10 +79,7 @@ void track_speed_wrong(Trial<Dozer>& trial) {
   plant::PathFaults& path = rig.plant.faults().path[any_track(trial)];
   const double way = trial.any_of(2) == 0 ? 1.0 : -1.0;
   path.speed.jump = way * (0.8 + 0.6 * trial.random.uniform());
-  Slowing slowing;
-  slowing.since_us = rig.at_us();
-  slowing.fault = Fault::kTrackSpeedDisagrees;
-  slowing.detect_us = kSecondUs;
+  Slowing slowing{rig.at_us(), Fault::kTrackSpeedDisagrees, kSecondUs};
   slowing.cure = [&path] { path.speed = {}; };
   trial.expect_slower(slowing);
 }

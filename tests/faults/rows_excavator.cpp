@@ -18,8 +18,7 @@ void pressure_silent(Trial<Excavator>& trial) {
 }
 
 void pressure_wrong(Trial<Excavator>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   // Only in motion can a number that stands still be told from a pressure.
   const unsigned axis =
       trial.odd() ? trial.any_of(kAxisCount) : trial.farthest_place(8 * kSecondUs);
@@ -33,9 +32,7 @@ void pressure_wrong(Trial<Excavator>& trial) {
   // Before the watch has seen 0.06 m of way, to and fro.
   constexpr double kJudged_m = 0.02;
   plant::PressureFault& pressure = cap ? faults.cap : faults.rod;
-  Slowing slowing;
-  slowing.since_us = rig.at_us();
-  slowing.fault = Fault::kPressureImplausible;
+  Slowing slowing{rig.at_us(), Fault::kPressureImplausible};
   if (trial.odd()) {
     pressure.rail_pa = rig.machine.profile.safety.pressure_rail_pa;
     slowing.detect_us = 400 * kMillisecondUs;
@@ -61,17 +58,13 @@ void pressure_wrong(Trial<Excavator>& trial) {
 
 /// A pump's feedback is wrong, or the pump itself.
 void swash_wrong(Trial<Excavator>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   plant::PumpFaults& pump = rig.plant.faults().pump[trial.any_of(kPumpCount)];
   // Less than any that is asked for, and more than light digging asks for.
   constexpr std::array<double, 3> kRatios = {0.05, 0.15, 1.0};
   const double ratio = kRatios[trial.any_of(kRatios.size())];
   (trial.odd() ? pump.shown_swash_ratio : pump.actual_swash_ratio) = ratio;
-  Slowing slowing;
-  slowing.since_us = rig.at_us();
-  slowing.fault = Fault::kSwashDisagrees;
-  slowing.detect_us = 800 * kMillisecondUs;
+  Slowing slowing{rig.at_us(), Fault::kSwashDisagrees, 800 * kMillisecondUs};
   slowing.back_us = 1500 * kMillisecondUs;
   slowing.cure = [&pump] { pump = {}; };
   trial.expect_slower(slowing);

@@ -19,8 +19,7 @@ namespace {
 /// One wrong frame is counted and costs nothing; while they go on its values are missing.
 template <class Kind>
 void wrong_length(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const Sensor& sensor = trial.any_sensor(Kind::vital());
   const std::uint32_t id = sensor.id;
   const auto length = static_cast<std::uint8_t>(trial.any_of(8));
@@ -33,10 +32,7 @@ void wrong_length(Trial<Kind>& trial) {
   };
   trial.expect_ignored(200 * kMillisecondUs, Kind::kLittle_m);
   trial.check(rig.ecu->link().wrong_length == before + 1, "the frame is not counted");
-  Stop stop;
-  stop.since_us = trial.last_us(id);
-  stop.any = {sensor.missing};
-  stop.detect_us = stop.neutral_us = kSilence_us;
+  Stop stop{trial.last_us(id), {sensor.missing}, kSilence_us, kSilence_us};
   rig.tamper = [id, length](CanFrame& frame, const LoopbackPort*) {
     frame.length = frame.id == id ? length : frame.length;
     return true;
@@ -48,8 +44,7 @@ void wrong_length(Trial<Kind>& trial) {
 /// Frames beside the live ones, in each cycle and for any message of the bus, as `make` has them.
 template <class Kind>
 void beside_the_live(Trial<Kind>& trial, void (*make)(Trial<Kind>& trial, CanFrame& frame)) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   rig.before_ecu = [&trial, &rig, make] {
     const auto& message =
         Kind::Dbc::kMessages[trial.any_of(static_cast<unsigned>(std::size(Kind::Dbc::kMessages)))];
@@ -109,26 +104,20 @@ void raw_value(Rig<Kind>& rig, std::uint32_t id, const dbc::Field& field, std::u
 /// Of a sensor that stops the machine by every second seed, of one that slows it by the others.
 template <class Kind>
 void special_value(Trial<Kind>& trial, std::uint32_t raw16, std::vector<Fault> beside) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const auto cure = [&rig] { rig.tamper = nullptr; };
   const Sensor& sensor = trial.any_sensor(trial.odd() ? Kind::vital() : Kind::slowing());
   const dbc::Field& field = trial.any_field(sensor);
   raw_value(rig, sensor.id, field, special_raw(field, raw16));
   if (trial.odd()) {
-    Stop stop;
-    stop.since_us = rig.now_us;
-    stop.any = std::move(beside);
+    Stop stop{rig.now_us, std::move(beside)};
     stop.any.push_back(sensor.missing);
     stop.detect_us = stop.neutral_us = kCycle_us;
     stop.cure = cure;
     trial.expect_stop(stop);
     return;
   }
-  Slowing slowing;
-  slowing.since_us = rig.now_us;
-  slowing.fault = sensor.missing;
-  slowing.detect_us = cycle_us_of<Kind>(sensor.id);
+  Slowing slowing{rig.now_us, sensor.missing, cycle_us_of<Kind>(sensor.id)};
   slowing.cure = cure;
   trial.expect_slower(slowing);
 }
@@ -152,16 +141,12 @@ void error_value(Trial<Kind>& trial) {
 template <class Kind>
 void out_of_range(Trial<Kind>& trial) {
   constexpr std::uint32_t kBeyond = 0x80;
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const bool stops = trial.odd();
   const Sensor& sensor = trial.any_sensor(stops ? Kind::vital() : Kind::slowing());
   const dbc::Field& field = trial.any_field(sensor);
   const std::uint32_t raw = field.raw_max + kBeyond;
-  Slowing slowing;
-  slowing.since_us = rig.now_us;
-  slowing.fault = Fault::kValueOutOfRange;
-  slowing.detect_us = cycle_us_of<Kind>(sensor.id);
+  Slowing slowing{rig.now_us, Fault::kValueOutOfRange, cycle_us_of<Kind>(sensor.id)};
   slowing.hold_us = stops ? 200 * kMillisecondUs : slowing.hold_us;
   raw_value(rig, sensor.id, field, raw, stops ? 1 : 1 << 20);
   slowing.cure = [&rig] { rig.tamper = nullptr; };
@@ -169,10 +154,7 @@ void out_of_range(Trial<Kind>& trial) {
   if (!stops) {
     return;
   }
-  Stop stop;
-  stop.since_us = trial.last_us(sensor.id);
-  stop.any = {sensor.missing};
-  stop.detect_us = stop.neutral_us = kSilence_us;
+  Stop stop{trial.last_us(sensor.id), {sensor.missing}, kSilence_us, kSilence_us};
   stop.cure = [&rig] { rig.tamper = nullptr; };
   raw_value(rig, sensor.id, field, raw);
   trial.expect_stop(stop);

@@ -89,8 +89,7 @@ void enable_not_fresh(Trial<Kind>& trial) {
 /// centimetres; without the pressures that would tell sooner.
 template <class Kind>
 void moves_with_its_spool_closed(Trial<Kind>& trial) {
-  trial.arm();
-  auto& rig = *trial.rig;
+  auto& rig = trial.arm();
   const unsigned axis = trial.any_of(Kind::kAxes);
   const bool has_pressures = axis < Kind::slowing().size();
   const auto pressures = [&rig, axis, has_pressures](bool silent) {
@@ -104,10 +103,9 @@ void moves_with_its_spool_closed(Trial<Kind>& trial) {
   const double drift_mps = 0.02 + 0.06 * trial.random.uniform();
   stroke.drift_mps = trial.any_of(2) == 0 ? drift_mps : -drift_mps;
   constexpr double kMost_m = 0.08;
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = {Fault::kUncommandedMotion, Fault::kWrongDirection, Fault::kMotionImplausible};
-  stop.detect_us = static_cast<TimeUs>(1e6 * kMost_m / drift_mps) + 100 * kMillisecondUs;
+  Stop stop{rig.at_us(),
+            {Fault::kUncommandedMotion, Fault::kWrongDirection, Fault::kMotionImplausible},
+            static_cast<TimeUs>(1e6 * kMost_m / drift_mps) + 100 * kMillisecondUs};
   stop.cure = [&stroke, &pressures] {
     stroke = {};
     pressures(false);
@@ -120,8 +118,7 @@ void moves_with_its_spool_closed(Trial<Kind>& trial) {
 /// Frames that waited through a stall are thrown away: after it nothing is younger than it.
 template <class Kind>
 void queued_through_a_stall(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const TimeUs stalled_us = rig.now_us;
   rig.ecu_on = false;
   rig.run(trial.any_time(100 * kMillisecondUs, 400 * kMillisecondUs));
@@ -139,8 +136,7 @@ void queued_through_a_stall(Trial<Kind>& trial) {
 /// More frames of a message at once than its sender can have sent, all in order.
 template <class Kind>
 void too_many_at_once(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const std::uint32_t id = trial.any_id(Kind::protected_ids());
   CanFrame last;
   rig.tamper = [&last, id](CanFrame& frame, const LoopbackPort*) {

@@ -50,10 +50,7 @@ void hands_silent(Trial<Excavator>& trial) {
   trial.check(rig.mode() == EcuMode::kActive, "it does not work");
   const std::uint32_t id =
       tries ? dbc::excavator::CommissionDuty::kId : dbc::excavator::OperatorAxes::kId;
-  Stop stop;
-  stop.since_us = trial.last_us(id);
-  stop.any = {Fault::kOperatorMissing};
-  stop.detect_us = kSilence_us;
+  Stop stop{trial.last_us(id), {Fault::kOperatorMissing}, kSilence_us};
   stop.cure = [&rig, id] {
     rig.driver.faults().set_silent(id, false);
     rig.driver.set_hands({});

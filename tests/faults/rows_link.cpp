@@ -65,8 +65,7 @@ class SlowQueue {
 /// lets go while it grows: neutral when the lag is 60 ms, and what the drift of clocks hides of it.
 template <class Kind>
 void slow_queue(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const bool of_operator = trial.any_of(2) == 1;
   const double slow = 0.01 + 0.01 * trial.any_of(10);
   SlowQueue<Kind> queue(rig, of_operator, 1.0 - slow);
@@ -75,8 +74,7 @@ void slow_queue(Trial<Kind>& trial) {
   });
   trial.check(rig.mode() == EcuMode::kActive || queue.lag_us() >= 30 * kMillisecondUs,
               "stopped before anything was late");
-  Stop stop;
-  stop.since_us = rig.at_us();
+  Stop stop{rig.at_us()};
   // A dozer's pose that is late does not fit its rates either.
   stop.any = {Fault::kStreamLate, Fault::kPoseDisagrees};
   stop.detect_us = stop.neutral_us = 110 * kMillisecondUs;
@@ -144,10 +142,7 @@ void second_controller(Trial<Kind>& trial) {
     other->ecu.emplace(rig.machine.profile, rig.machine.hash, rig.other_port);
     rig.before_all = [other, &rig] { other->ecu->step(rig.now_us, 0); };
   }
-  Stop stop;
-  stop.since_us = since_us;
-  stop.any = {Fault::kSecondController};
-  stop.detect_us = stop.neutral_us = 20 * kMillisecondUs;
+  Stop stop{since_us, {Fault::kSecondController}, 20 * kMillisecondUs, 20 * kMillisecondUs};
   stop.cure = [&rig, other] {
     rig.before_all = nullptr;
     other->ecu.reset();

@@ -50,14 +50,10 @@ unsigned moving_axis(Trial<Kind>& trial) {
 /// it is, which shows when the operator lets go.
 template <class Kind>
 void spool_stuck(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const unsigned axis = moving_axis(trial);
   auto& faults = Kind::axis(rig.plant, axis);
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = {Fault::kSpoolStuck};
-  stop.detect_us = 250 * kMillisecondUs;
+  Stop stop{rig.at_us(), {Fault::kSpoolStuck}, 250 * kMillisecondUs};
   stop.disobeying = true;
   stop.pilot_cut = true;
   stop.cure = [&faults] { faults.spool_held_ratio.reset(); };
@@ -80,8 +76,7 @@ void moves_uncommanded(Trial<Kind>& trial) {
   auto& faults = Kind::axis(rig.plant, axis);
   const unsigned kind = static_cast<unsigned>(trial.seed() % 3);
   kind == 0 ? trial.work() : trial.arm();
-  Stop stop;
-  stop.since_us = rig.at_us();
+  Stop stop{rig.at_us()};
   stop.pilot_cut = kind != 2;
   if (kind == 2) {
     faults.stroke.drift_mps = trial.any_of(2) == 0 ? 0.05 : -0.05;
@@ -100,14 +95,10 @@ void moves_uncommanded(Trial<Kind>& trial) {
 
 template <class Kind>
 void stroke_stuck(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   plant::StrokeFault& stroke = Kind::axis(rig.plant, moving_axis(trial)).stroke;
   stroke.stuck = true;
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = {Fault::kStrokeStuck};
-  stop.detect_us = Kind::kStuckStroke_us;
+  Stop stop{rig.at_us(), {Fault::kStrokeStuck}, Kind::kStuckStroke_us};
   stop.cure = [&stroke] { stroke.stuck = false; };
   trial.expect_stop(stop);
 }
@@ -115,22 +106,15 @@ void stroke_stuck(Trial<Kind>& trial) {
 /// For one frame, then for good.
 template <class Kind>
 void reading_jumps(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const Reading reading = Kind::any_reading(rig.plant, trial.random);
   *reading.offset = reading.jump;
-  Slowing slowing;
-  slowing.since_us = rig.now_us;
-  slowing.fault = reading.jumped;
-  slowing.detect_us = kCycle_us;
-  slowing.hold_us = 200 * kMillisecondUs;
+  Slowing slowing{rig.now_us, reading.jumped, kCycle_us, 200 * kMillisecondUs};
   rig.before_ecu = [&reading] { *reading.offset = 0.0; };
   trial.expect_slower(slowing);
   rig.before_ecu = nullptr;
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = {reading.missing, reading.jumped};
-  stop.detect_us = stop.neutral_us = 50 * kMillisecondUs;
+  Stop stop{
+      rig.at_us(), {reading.missing, reading.jumped}, 50 * kMillisecondUs, 50 * kMillisecondUs};
   *reading.offset = reading.jump;
   stop.cure = [&reading] { *reading.offset = 0.0; };
   trial.expect_stop(stop);

@@ -57,8 +57,7 @@ void three_wrong_crcs(Trial<Kind>& trial) {
     return true;
   };
   trial.check(trial.rig->run_until(kSecondUs, [&] { return *number >= 11; }), "no frames");
-  Stop stop;
-  stop.since_us = trial.rig->at_us();
+  Stop stop{trial.rig->at_us()};
   // What is wrong by the same bits each time can be right for another message.
   stop.any = {Fault::kMessageCorrupt, Fault::kMessageMasquerade};
   stop.detect_us = stop.neutral_us = kCycle_us;
@@ -70,10 +69,7 @@ template <class Kind>
 void frozen_counter(Trial<Kind>& trial) {
   trial.work();
   const std::uint32_t id = trial.any_id(Kind::protected_ids());
-  Stop stop;
-  stop.since_us = trial.last_us(id);
-  stop.any = missing<Kind>();
-  stop.detect_us = stop.neutral_us = kRefused_us;
+  Stop stop{trial.last_us(id), missing<Kind>(), kRefused_us, kRefused_us};
   trial.rig->tamper = [id, counter = -1](CanFrame& frame, const LoopbackPort*) mutable {
     if (frame.id == id) {
       counter = counter < 0 ? counter_of(frame) : counter;
@@ -97,10 +93,7 @@ template <class Kind>
 void counter_jumps(Trial<Kind>& trial) {
   trial.work();
   const std::uint32_t id = trial.any_id(Kind::protected_ids());
-  Stop stop;
-  stop.since_us = trial.last_us(id);
-  stop.any = missing<Kind>();
-  stop.detect_us = stop.neutral_us = kRefused_us;
+  Stop stop{trial.last_us(id), missing<Kind>(), kRefused_us, kRefused_us};
   const std::uint32_t before = refused(trial);
   const unsigned jump = 3 + trial.any_of(8);
   trial.rig->tamper = [id, jump, ahead = 0U](CanFrame& frame, const LoopbackPort*) mutable {
@@ -142,8 +135,7 @@ struct Replay {
 /// is the last one for at most one more.
 template <class Kind>
 void old_block_replayed(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   auto replay = std::make_shared<Replay>();
   replay->axis = trial.any_of(Kind::kAxes);
   replay->sensor = Kind::strokes()[replay->axis];
@@ -171,8 +163,7 @@ void old_block_replayed(Trial<Kind>& trial) {
       replay->block.pop_front();
     }
   };
-  Stop stop;
-  stop.since_us = rig.now_us;
+  Stop stop{rig.now_us};
   const std::uint32_t before = refused(trial);
   const TimeUs until_us = rig.now_us + 300 * kMillisecondUs;
   while (rig.now_us < until_us && rig.mode() == EcuMode::kActive) {
@@ -196,8 +187,7 @@ void old_block_replayed(Trial<Kind>& trial) {
 
 template <class Kind>
 void pair_out_of_order(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const std::uint32_t id = trial.any_id(Kind::protected_ids());
   struct Held {
     int number = 0;
@@ -223,8 +213,7 @@ void pair_out_of_order(Trial<Kind>& trial) {
 /// Every frame twice, the controller's too.
 template <class Kind>
 void duplicates(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   struct Sent {
     std::vector<std::pair<CanFrame, bool>> frames;  // and whether it is the controller's own
     bool again = false;
@@ -287,10 +276,8 @@ void swapped_data_ids(Trial<Kind>& trial) {
     other = trial.any_id(Kind::protected_ids());
     other = other == Kind::Dbc::OperatorCommand::kId ? one : other;
   }
-  Stop stop;
-  stop.since_us = trial.last_us(one);
-  stop.any = {Fault::kMessageMasquerade};
-  stop.detect_us = stop.neutral_us = 50 * kMillisecondUs;
+  Stop stop{
+      trial.last_us(one), {Fault::kMessageMasquerade}, 50 * kMillisecondUs, 50 * kMillisecondUs};
   frames.swapped_data_ids = {one, other};
   stop.cure = [&frames] { frames.swapped_data_ids.reset(); };
   trial.expect_stop(stop);
@@ -299,8 +286,7 @@ void swapped_data_ids(Trial<Kind>& trial) {
 /// A second node sends a message at the same rate, with a counter of its own and another value.
 template <class Kind>
 void second_sender(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const std::uint32_t id = trial.any_id(Kind::protected_ids());
   struct Other {
     CanFrame frame;
@@ -326,10 +312,7 @@ void second_sender(Trial<Kind>& trial) {
     other->counter = e2e_next_counter(other->counter);
     static_cast<void>(rig.other_port.send(other->frame));
   };
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = missing<Kind>();
-  stop.detect_us = stop.neutral_us = 120 * kMillisecondUs;
+  Stop stop{rig.at_us(), missing<Kind>(), 120 * kMillisecondUs, 120 * kMillisecondUs};
   stop.cure = [&rig] { rig.before_ecu = nullptr; };
   trial.expect_stop(stop);
 }

@@ -87,10 +87,7 @@ void pose_frozen(Trial<Dozer>& trial) {
   const bool with_its_rate = parts.size() == 2 && parts.front() == kPitch;
   const TimeUs most_us = with_its_rate ? kMostBlindWithItsRate_us : kMostBlind_us;
   const double from_m = rig.plant.plant().position_m();
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = {Fault::kPoseDisagrees};
-  stop.detect_us = most_us;
+  Stop stop{rig.at_us(), {Fault::kPoseDisagrees}, most_us};
   stop.cure = [&pose] { pose = {}; };
   rig.run_until(most_us, [&rig] { return !in_motion(rig.mode()); });
   const double blind_m = rig.plant.plant().position_m() - from_m;
@@ -131,11 +128,7 @@ void track_sensor_wrong(Trial<Dozer>& trial) {
         0.01 / gauge_m * (plant.track_speeds_mps()[kRight] - plant.track_speeds_mps()[kLeft]);
     at_once_rad = rig.now_us <= told_us ? std::abs(turned_rad) : at_once_rad;
   };
-  Slowing slowing;
-  slowing.since_us = rig.at_us();
-  slowing.fault = Fault::kTrackSpeedDisagrees;
-  slowing.detect_us = 300 * kMillisecondUs;
-  slowing.hold_us = 2 * kSecondUs;
+  Slowing slowing{rig.at_us(), Fault::kTrackSpeedDisagrees, 300 * kMillisecondUs, 2 * kSecondUs};
   slowing.cure = [&speed] { speed = {}; };
   trial.expect_slower(slowing);
   constexpr double kMostTurn_rad = 3.0 / 57.3;

@@ -38,8 +38,7 @@ double off_path_m(const Rig<Excavator>& rig) {
 
 /// It has to be stopped or slowed before the tool is anywhere else; what does no harm may go on.
 void pressures_wrong(Trial<Excavator>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const unsigned axis = trial.any_of(kAxisCount);
   const double before_m = off_path_m(rig);
   spoil(rig.plant.faults().axis[axis], trial.seed());

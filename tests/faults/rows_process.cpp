@@ -17,8 +17,7 @@ void miss_a_cycle(Rig<Kind>& rig) {
 
 template <class Kind>
 void overruns(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   miss_a_cycle(rig);
   trial.expect_ignored(300 * kMillisecondUs, Kind::kLittle_m);
   Stop stop;
@@ -34,11 +33,9 @@ void overruns(Trial<Kind>& trial) {
 /// Not called for 300 ms: it hangs, or is stopped.
 template <class Kind>
 void stalls(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   rig.closing.emplace(false);
-  Stop stop;
-  stop.since_us = rig.at_us();
+  Stop stop{rig.at_us()};
   rig.ecu_on = false;
   rig.run(300 * kMillisecondUs);
   rig.ecu_on = true;
@@ -51,11 +48,9 @@ void stalls(Trial<Kind>& trial) {
 /// Started again after 0.2 to 0.6 s, with the deadman held and the task given.
 template <class Kind>
 void killed(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   rig.closing.emplace(false);
-  Stop stop;
-  stop.since_us = rig.at_us();
+  Stop stop{rig.at_us()};
   rig.kill_ecu();
   rig.run(trial.any_time(200'000, 600'000));
   rig.start_ecu();
@@ -130,24 +125,17 @@ void not_at_rest(Trial<Kind>& trial) {
 
 template <class Kind>
 void bit_flips(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   Kind::flip(*rig.ecu, trial.any_of(Kind::kSetpoints), trial.any_of(1U << 16U));
-  Stop stop;
-  stop.since_us = rig.now_us;
-  stop.any = {Fault::kMemoryCorrupt};
-  stop.detect_us = stop.neutral_us = kCycle_us;
-  trial.expect_stop(stop);
+  trial.expect_stop({rig.now_us, {Fault::kMemoryCorrupt}, kCycle_us, kCycle_us});
 }
 
 /// A babbling node, the operator silent, and late cycles.
 template <class Kind>
 void all_at_once(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   rig.closing.emplace(false);
-  Stop stop;
-  stop.since_us = rig.at_us();
+  Stop stop{rig.at_us()};
   rig.bus.set_babble(0);
   rig.driver.set_silent(true);
   miss_a_cycle(rig);

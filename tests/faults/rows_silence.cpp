@@ -33,10 +33,10 @@ template <class Kind>
 void operator_silent(Trial<Kind>& trial) {
   trial.work();
   trial.rig->driver.set_silent(true);
-  Stop stop;
-  stop.since_us = trial.last_us(Kind::Dbc::OperatorCommand::kId);
-  stop.any = {Fault::kOperatorMissing};
-  stop.detect_us = stop.neutral_us = kSilence_us;
+  Stop stop{trial.last_us(Kind::Dbc::OperatorCommand::kId),
+            {Fault::kOperatorMissing},
+            kSilence_us,
+            kSilence_us};
   stop.cure = [&] { trial.rig->driver.set_silent(false); };
   trial.expect_stop(stop);
 }
@@ -44,8 +44,7 @@ void operator_silent(Trial<Kind>& trial) {
 /// Let go; in every fourth seed the deadman's contact says 'error' or 'not available' instead.
 template <class Kind>
 void enable_released(Trial<Kind>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   Stop stop;
   const bool let_go = trial.seed() % 4 != 0;
   if (let_go) {
@@ -74,10 +73,7 @@ void sensor_silent(Trial<Kind>& trial) {
   trial.work();
   const Sensor& sensor = trial.any_sensor(Kind::vital());
   const std::uint32_t id = sensor.id;
-  Stop stop;
-  stop.since_us = trial.last_us(id);
-  stop.any = {sensor.missing};
-  stop.detect_us = stop.neutral_us = kSilence_us;
+  Stop stop{trial.last_us(id), {sensor.missing}, kSilence_us, kSilence_us};
   stop.cure = [&trial, id] { trial.rig->plant.faults().set_silent(id, false); };
   trial.rig->plant.faults().set_silent(id, true);
   trial.expect_stop(stop);

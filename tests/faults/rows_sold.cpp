@@ -15,8 +15,7 @@ constexpr std::uint8_t kInclinometer = 17;
 void sensor_emergency(Trial<Excavator>& trial) {
   const bool inclined = trial.odd();
   trial.set_up(Excavator::sold_scenery_of(trial.seed(), inclined ? "inclinometers" : "encoders"));
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   plant::SoldFaults& sold = rig.plant.faults().sold;
   const std::uint8_t first = inclined ? kInclinometer : kEncoder;
   sold.emergency_node = static_cast<std::uint8_t>(first + trial.any_of(kAxisCount));
@@ -25,10 +24,7 @@ void sensor_emergency(Trial<Excavator>& trial) {
   static_cast<void>(std::snprintf(node_and_code, sizeof node_and_code,
                                   "node %d has emergency %04Xh", sold.emergency_node,
                                   sold.emergency));
-  Stop stop;
-  stop.since_us = rig.now_us;
-  stop.any = {Fault::kStrokeMissing};
-  stop.detect_us = 20 * kMillisecondUs;
+  Stop stop{rig.now_us, {Fault::kStrokeMissing}, 20 * kMillisecondUs};
   bool told = false;
   stop.cure = [&] {
     told = runs::emergency_words(rig.ecu->emergency()).find(node_and_code) != std::string::npos;

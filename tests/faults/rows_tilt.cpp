@@ -199,10 +199,7 @@ void go_wrong(Trial<Dozer>& trial, const std::vector<Case>& cases) {
   plant::DozerFaults& faults = rig.plant.faults();
   wrong.apply(faults);
   const runs::GradeTruth truth(rig.machine.profile);
-  Stop stop;
-  stop.since_us = rig.at_us();
-  stop.any = wrong.any;
-  stop.detect_us = wrong.detect_us;
+  Stop stop{rig.at_us(), wrong.any, wrong.detect_us};
   const bool held = faults.tilt_spool_held_ratio.has_value();
   stop.pilot_cut = held;
   stop.cure = [&trial, &faults, &rig, held] {

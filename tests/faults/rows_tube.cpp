@@ -14,8 +14,7 @@ constexpr double kBeyond_m = 0.25;
 
 /// Pushed at the bucket's tip, harder and harder, by more than the machine can hold.
 void pushed_off(Trial<Excavator>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const RoundedRectangle path(rig.machine.profile.dig_path);
   const auto off_m = [&rig, &path] {
     const Eigen::Vector2d tip_m = rig.plant.plant().tip().position_m;
@@ -49,8 +48,7 @@ void pushed_off(Trial<Excavator>& trial) {
 /// The height is wrong by more and more, with the climb that belongs to it: the edge goes off its
 /// design as far as anybody can tell.
 void led_off(Trial<Dozer>& trial) {
-  trial.work();
-  auto& rig = *trial.rig;
+  auto& rig = trial.work();
   const double way = trial.any_of(2) == 0 ? 1.0 : -1.0;
   // The blade's hoses leak away what it is told: held where it is.
   rig.plant.faults().pose.height.drift_ps = way * 0.3;

@@ -33,7 +33,7 @@ void Trial<Kind>::set_queue(std::size_t ecu_queue) {
 }
 
 template <class Kind>
-void Trial<Kind>::work() {
+Rig<Kind>& Trial<Kind>::work() {
   rig->run(200 * kMillisecondUs);
   rig->ask(true, Task::kNone);
   rig->run(100 * kMillisecondUs);
@@ -46,14 +46,16 @@ void Trial<Kind>::work() {
   check(moves && rig->mode() == EcuMode::kActive && rig->enabled(),
         fmt::format("no task under way before the fault: mode {}, fault {}",
                     static_cast<int>(rig->mode()), static_cast<int>(rig->outputs().status.fault)));
+  return *rig;
 }
 
 template <class Kind>
-void Trial<Kind>::arm() {
+Rig<Kind>& Trial<Kind>::arm() {
   rig->run(200 * kMillisecondUs);
   rig->ask(true, Task::kNone);
   rig->run(any_time(kSecondUs, 2 * kSecondUs));
   check(rig->mode() == EcuMode::kArmed, "not armed before the fault");
+  return *rig;
 }
 
 template <class Kind>

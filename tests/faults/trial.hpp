@@ -32,17 +32,17 @@ struct Outcome {
 
 /// What must stop the machine.
 struct Stop {
-  TimeUs since_us = 0;     ///< The first wrong thing; in silence the last right frame.
-  std::vector<Fault> any;  ///< One of these has to be the reason; empty: no fault.
-  TimeUs detect_us = 0;    ///< From `since_us`, at most.
+  TimeUs since_us = 0;       ///< The first wrong thing; in silence the last right frame.
+  std::vector<Fault> any{};  ///< One of these has to be the reason; empty: no fault.
+  TimeUs detect_us = 0;      ///< From `since_us`, at most.
   TimeUs neutral_us =
       0;  ///< From `since_us` to neutral on the bus, at most; 0: no bound of its own.
   bool bus_carries = true;  ///< Else the valve side has to close by itself.
   bool latches = true;
-  bool disobeying = false;     ///< A spool is open against its command.
-  bool pilot_cut = false;      ///< The pilot pressure has to be asked away.
-  bool brake_at_once = false;  ///< A machine that drives brakes before it stands.
-  std::function<void()> cure;  ///< Takes the fault away; empty: it is over by itself.
+  bool disobeying = false;       ///< A spool is open against its command.
+  bool pilot_cut = false;        ///< The pilot pressure has to be asked away.
+  bool brake_at_once = false;    ///< A machine that drives brakes before it stands.
+  std::function<void()> cure{};  ///< Takes the fault away; empty: it is over by itself.
 };
 
 /// What must slow the machine.
@@ -52,7 +52,7 @@ struct Slowing {
   TimeUs detect_us = 0;
   TimeUs hold_us = 700 * kMillisecondUs;  ///< From detection to the cure.
   TimeUs back_us = 0;  ///< From the cure to full speed, at most; 0: what the kind needs.
-  std::function<void()> cure;
+  std::function<void()> cure{};
 };
 
 template <class Kind>
@@ -67,9 +67,9 @@ class Trial {
 
   /// From power-on to the task, Active for as long as the machine kind has it, with somewhere to
   /// go.
-  void work();
+  Rig<Kind>& work();
   /// From power-on to Armed without a task.
-  void arm();
+  Rig<Kind>& arm();
 
   void expect_stop(const Stop& stop);
   void expect_slower(const Slowing& slowing);
@@ -127,10 +127,7 @@ inline constexpr TimeUs kSilence_us = 50 * kMillisecondUs;
 template <class Kind>
 void slowed_by_silence(Trial<Kind>& trial, std::uint32_t id, Fault fault) {
   trial.work();
-  Slowing slowing;
-  slowing.since_us = trial.last_us(id);
-  slowing.fault = fault;
-  slowing.detect_us = kSilence_us;
+  Slowing slowing{trial.last_us(id), fault, kSilence_us};
   slowing.cure = [&trial, id] { trial.rig->plant.faults().set_silent(id, false); };
   trial.rig->plant.faults().set_silent(id, true);
   trial.expect_slower(slowing);
