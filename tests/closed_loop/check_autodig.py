@@ -55,7 +55,7 @@ class Digger:
 
     def call(self, *arguments):
         return subprocess.run([self.graben, *arguments, "--out", self.folder],
-                              capture_output=True, text=True, timeout=120)
+                              capture_output=True, text=True, timeout=1800)
 
     def figures(self, *options, command=("autodig",)):
         done = self.call(*command, "--summary", self.path("summary.json"), *options)
@@ -87,7 +87,7 @@ def teeth(graben, row):
     strokes = ",".join(row[f"{axis}_m"] for axis in ("boom", "arm", "bucket"))
     done = subprocess.run([graben, "pose", "--profile", "excavator_12t", f"--strokes={strokes}",
                            f"--swing={row['swing_rad']}"], capture_output=True, text=True,
-                          timeout=60, check=True)
+                          timeout=1800, check=True)
     return json.loads(done.stdout)["position_m"]
 
 

@@ -85,7 +85,7 @@ def goes_on(graben, folder, whole, kind):
             break
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=1800)
     rows = content(file).splitlines()[2:]
     assert process.returncode == 1 and "goes on" in err, (process.returncode, err)
     assert 1 < len(rows) < DRAWS, f"{len(rows)} rows after the interruption"
@@ -125,7 +125,7 @@ def one_at_a_time(graben, folder):
     _, err = call(graben, "dig", "--draws", "40", "--summary", file, status=1)
     assert "another campaign" in err, err
     first.send_signal(signal.SIGTERM)
-    first.communicate(timeout=60)
+    first.communicate(timeout=1800)
     assert not os.path.exists(file + ".lock")
 
 
@@ -139,7 +139,7 @@ def no_cluster(graben, folder):
         os.chmod(os.path.join(programs, name), 0o755)
     summary = os.path.join(folder, "far", "x.csv")
     done = subprocess.run([graben, "campaign", "dig", "--draws", "2", "--slurm", "2", "--summary", summary],
-                          capture_output=True, text=True, timeout=60,
+                          capture_output=True, text=True, timeout=1800,
                           env={**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"})
     assert done.returncode == 1 and "no controller" in done.stderr, done
     assert not os.path.exists(summary + ".slurm"), os.listdir(summary + ".slurm")

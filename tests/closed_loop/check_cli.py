@@ -16,7 +16,7 @@ MACHINES = pathlib.Path(__file__).resolve().parents[2] / "app" / "machines"
 
 
 def call(graben, *arguments):
-    return subprocess.run([graben, *arguments], capture_output=True, text=True, timeout=120)
+    return subprocess.run([graben, *arguments], capture_output=True, text=True, timeout=1800)
 
 
 def good(graben, *arguments):
@@ -217,7 +217,7 @@ def interrupted(graben):
         while time.monotonic() < deadline and not os.path.exists(os.path.join(folder, "dig.log.part")):
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=1800)
         assert process.returncode == 1 and err == "graben dig: interrupted; nothing was written\n", (out, err)
         assert not os.listdir(folder), os.listdir(folder)
 
@@ -225,10 +225,10 @@ def interrupted(graben):
 def lost_output(graben):
     with open("/dev/full", "w", encoding="ascii") as full:
         done = subprocess.run([graben, "pose", "--profile", "excavator_22t", "--strokes", "1,1,0.4"],
-                              stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+                              stdout=full, stderr=subprocess.PIPE, text=True, timeout=1800)
     assert done.returncode == 1 and "standard output" in done.stderr, done.stderr
     folder = os.open("/", os.O_RDONLY)
-    done = subprocess.run([graben, "solve"], stdin=folder, capture_output=True, text=True, timeout=60)
+    done = subprocess.run([graben, "solve"], stdin=folder, capture_output=True, text=True, timeout=1800)
     assert done.returncode == 1 and "can't be read" in done.stderr, (done.returncode, done.stderr)
 
 

@@ -17,7 +17,7 @@ from report_page import setup_of
 
 
 def call(graben, folder, *arguments, status=0):
-    done = subprocess.run([graben, *arguments], cwd=folder, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([graben, *arguments], cwd=folder, capture_output=True, text=True, timeout=1800)
     assert done.returncode == status, f"{arguments}: {done.returncode}: {done.stderr}"
     return done.stderr if status else done.stdout
 

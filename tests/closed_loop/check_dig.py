@@ -25,7 +25,7 @@ SPOOLS = {"spool_travel_ps": (0.02, 3.0), "spool_reversals_ps": (0.01, 5.0)}
 def dig(graben, folder, *options):
     summary = os.path.join(folder, "summary.json")
     done = subprocess.run([graben, "dig", "--out", folder, "--summary", summary, *options],
-                          capture_output=True, text=True, timeout=120)
+                          capture_output=True, text=True, timeout=1800)
     if done.returncode != 0:
         raise AssertionError(f"{' '.join(options)}: {done.stdout}{done.stderr}")
     with open(summary, encoding="utf-8") as stream:

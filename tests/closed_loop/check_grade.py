@@ -98,7 +98,7 @@ def report_is_whole(graben, folder):
 def fastest_constant(graben, folder):
     summary = os.path.join(folder, "fastest.json")
     done = subprocess.run([graben, "grade", "--speed-mode", "constant", "--speed", "0.6", "--within",
-                           "0.13", "--summary", summary], capture_output=True, text=True, timeout=120)
+                           "0.13", "--summary", summary], capture_output=True, text=True, timeout=1800)
     assert done.returncode == 0, done.stderr
     trials = [(float(line.split()[0]), float(line.split()[1]), "too far off" in line)
               for line in done.stdout.splitlines()[1:-1]]
@@ -129,7 +129,7 @@ def few_crests_are_cut_deep(graben, folder):
         summary = os.path.join(folder, f"ground{seed}.csv")
         # Status 1 where a draw is missed: judged below.
         subprocess.run([graben, "campaign", "ground", "--seed", str(seed), "--draws", "1", "--summary", summary],
-                       check=False, capture_output=True, timeout=120)
+                       check=False, capture_output=True, timeout=1800)
         with open(summary, encoding="utf-8") as stream:
             rows = [row for row in csv.reader(stream) if not row[0].startswith("#")]
         cut[seed] = float(dict(zip(rows[0], rows[-1]))["over_cut_m"])

@@ -99,7 +99,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         summary_path = os.path.join(folder, "summary.json")
         subprocess.run([graben, "grade", "--out", folder, "--summary", summary_path], check=True,
-                       capture_output=True, timeout=120)
+                       capture_output=True, timeout=1800)
         with open(summary_path, encoding="utf-8") as stream:
             summary = json.load(stream)
         counts, moments = read_log(os.path.join(folder, "grade.log"), messages)

@@ -30,7 +30,7 @@ def shipped_profiles(said):
 
 
 def call(graben, *arguments, text="", folder=None):
-    return subprocess.run([graben, *arguments], input=text, capture_output=True, text=True, timeout=120, cwd=folder)
+    return subprocess.run([graben, *arguments], input=text, capture_output=True, text=True, timeout=1800, cwd=folder)
 
 
 def refused(graben, needle, *arguments, status=1, text="", folder=None):

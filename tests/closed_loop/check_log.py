@@ -94,7 +94,7 @@ def check_swing(graben, messages):
     """A task's log has every message of the DBC, as often as it should."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([graben, "autodig", "--out", folder], check=True, capture_output=True,
-                       timeout=120)
+                       timeout=1800)
         counts, last_s = Counter(), 0.0
         for time_s, name, _ in frames(os.path.join(folder, "autodig.log"), messages):
             counts[name] += 1
@@ -110,7 +110,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         summary_path = os.path.join(folder, "summary.json")
         subprocess.run([graben, "dig", "--out", folder, "--summary", summary_path], check=True,
-                       capture_output=True, timeout=120)
+                       capture_output=True, timeout=1800)
         with open(summary_path, encoding="utf-8") as stream:
             summary = json.load(stream)
         counts, moments = read_log(os.path.join(folder, "dig.log"), messages)

@@ -17,7 +17,7 @@ MACHINES = pathlib.Path(__file__).resolve().parents[2] / "app" / "machines"
 def make(graben, folder, like, answers, *options):
     out = [] if "--out" in options else ["--out", "mine.toml"]
     return subprocess.run([graben, "new-machine", "--like", like, *out, *options], cwd=folder,
-                          input="\n".join([*answers, "", ""]), capture_output=True, text=True, timeout=60)
+                          input="\n".join([*answers, "", ""]), capture_output=True, text=True, timeout=1800)
 
 
 def asked(said):
@@ -37,7 +37,7 @@ def flat(number_or_list):
 
 def check(graben, folder):
     return subprocess.run([graben, "check", "mine.toml", "--out", "."], cwd=folder, capture_output=True, text=True,
-                          timeout=60)
+                          timeout=1800)
 
 
 def unchanged(graben, folder, like):
@@ -124,7 +124,7 @@ def refusals(graben, folder):
         assert done.returncode == 1 and needle in done.stderr, (answers, done.stderr)
         assert (folder / "mine.toml").read_bytes() == kept, answers
     done = subprocess.run([graben, "new-machine", "--out", "none.toml"], cwd=folder, stdin=subprocess.DEVNULL,
-                          capture_output=True, text=True, timeout=60)
+                          capture_output=True, text=True, timeout=1800)
     assert done.returncode == 1 and "standard input is empty" in done.stderr, (done.returncode, done.stderr)
     assert not (folder / "none.toml").exists()
     # What does not fit together is told with its line, and the file is there to be corrected: a bore that is less than

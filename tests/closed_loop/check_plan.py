@@ -22,7 +22,7 @@ class Planner:
 
     def run(self, *arguments):
         return subprocess.run([self._graben, "plan", "--out", self._folder, *arguments],
-                              capture_output=True, text=True, timeout=120)
+                              capture_output=True, text=True, timeout=1800)
 
     def plan(self, *arguments):
         """Output, figures and rows of a plan that can be had."""
@@ -48,7 +48,7 @@ def strokes_to_teeth(graben, row):
     strokes = ",".join(str(row[f"{axis}_m"]) for axis in ("boom", "arm", "bucket"))
     done = subprocess.run([graben, "pose", "--profile", "excavator_12t", f"--strokes={strokes}",
                            f"--swing={row['swing_rad']}"], capture_output=True, text=True,
-                          timeout=60, check=True)
+                          timeout=1800, check=True)
     return json.loads(done.stdout)["position_m"]
 
 
@@ -131,7 +131,7 @@ def tasks(planner):
             setup = report_page.setup_of(stream.read())
         assert setup["machines"][0]["tasks"][0]["steps"][0]["raised_to_m"] == 0.03, setup["machines"][0]["tasks"]
         done = subprocess.run([planner._graben, "autodig", "--task", file.name, "--out", planner._folder],
-                              capture_output=True, text=True, timeout=120)
+                              capture_output=True, text=True, timeout=1800)
         assert done.returncode == 0 and told in done.stdout, done
 
 
@@ -152,7 +152,7 @@ speed = 0.3
             file.flush()
             planned, tasked, dug = (subprocess.run(
                 [planner._graben, *arguments, "--profile", profile, "--out", planner._folder],
-                capture_output=True, text=True, timeout=120)
+                capture_output=True, text=True, timeout=1800)
                 for arguments in (("plan", f"--from={begins}", f"--to={ends}", "--speed", "0.3"),
                                   ("plan", "--task", file.name), ("autodig", "--task", file.name)))
         assert (planned.returncode, tasked.returncode, dug.returncode) == (1, 1, 1), (planned, tasked, dug)

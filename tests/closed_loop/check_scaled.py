@@ -36,7 +36,7 @@ def files(machines, folder, tonnes):
 def run(graben, folder, profile, task, name, options):
     out = os.path.join(folder, f"{os.path.basename(profile)} {name}")
     done = subprocess.run([graben, "autodig", "--profile", profile, "--task", task, "--out", out,
-                           "--summary", out + ".json", *options], capture_output=True, text=True, timeout=120)
+                           "--summary", out + ".json", *options], capture_output=True, text=True, timeout=1800)
     if done.returncode != 0:
         return f"status {done.returncode}: {done.stderr.strip()}", None
     with open(out + ".json", encoding="utf-8") as stream:

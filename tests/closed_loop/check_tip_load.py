@@ -43,7 +43,7 @@ def told(graben, folder, *options):
     done = subprocess.run(
         [graben, "autodig", "--profile", "excavator_22t", "--task", os.path.join(folder, "heap.toml"),
          "--start", START, "--rounds", "3", "--summary", summary, "--out", folder, *options],
-        capture_output=True, text=True, timeout=120)
+        capture_output=True, text=True, timeout=1800)
     assert done.returncode == 0, f"{options}: {done.stdout}{done.stderr}"
     with open(summary, encoding="utf-8") as stream:
         return json.load(stream)

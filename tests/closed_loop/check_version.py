@@ -45,7 +45,7 @@ def of_server(graben: str) -> str:
                     return content["version"]
     finally:
         server.terminate()
-        server.wait(timeout=30)
+        server.wait(timeout=1800)
 
 
 def main() -> None:

@@ -21,7 +21,7 @@ def write(text, *path):
 
 
 def run(graben, *options):
-    return subprocess.run([graben, "grade", *options], capture_output=True, text=True, timeout=120)
+    return subprocess.run([graben, "grade", *options], capture_output=True, text=True, timeout=1800)
 
 
 def figures_of(graben, folder, *options):

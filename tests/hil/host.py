@@ -24,7 +24,7 @@ def prepare():
         which(name)
     try:
         done = subprocess.run([*OWN_NETWORK, str(which("ip")), "link", "add", "type", "vcan"],
-                              capture_output=True, text=True, check=False, timeout=30)
+                              capture_output=True, text=True, check=False, timeout=1800)
     except (OSError, subprocess.TimeoutExpired) as error:
         raise Nowhere(str(error)) from None
     if done.returncode != 0:

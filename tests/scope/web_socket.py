@@ -14,7 +14,7 @@ class WebSocket:
     """One connection. `take()` gives what has come; nothing waits but the handshake."""
 
     def __init__(self, host: str, port: int):
-        self._socket = socket.create_connection((host, port), timeout=5)
+        self._socket = socket.create_connection((host, port), timeout=120)
         self._received = bytearray()
         key = base64.b64encode(os.urandom(16)).decode()
         self._socket.sendall((

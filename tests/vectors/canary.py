@@ -77,7 +77,7 @@ def main():
             with open(changed, "w", encoding="utf-8") as stream:
                 stream.write(json.dumps(case) + "\n")
             done = subprocess.run([sys.executable, "-B", check, graben, changed],
-                                  capture_output=True, text=True, timeout=60)
+                                  capture_output=True, text=True, timeout=1800)
         told = done.returncode != 0 and name in done.stdout
         print(f"{name}: {'told' if told else 'NOT TOLD'}")
         status |= not told

@@ -72,7 +72,7 @@ def main():
         lines += [json.dumps(case), line]
     lines += ["", json.dumps(case)]
     done = subprocess.run([graben, "solve"], input="\n".join(lines) + "\n", capture_output=True,
-                          text=True, timeout=60)
+                          text=True, timeout=1800)
     results = [json.loads(line) for line in done.stdout.splitlines()]
     errors = done.stderr.splitlines()
     wrong = []

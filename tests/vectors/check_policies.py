@@ -67,7 +67,7 @@ def differences(policy, case, result):
 def solve(policy, graben, cases):
     """(results, what the tool said or its status was)"""
     done = subprocess.run([graben, "solve", "--policy", policy], capture_output=True, text=True,
-                          input="".join(json.dumps(case) + "\n" for case in cases), timeout=120)
+                          input="".join(json.dumps(case) + "\n" for case in cases), timeout=1800)
     results = [json.loads(line) for line in done.stdout.splitlines()]
     complete = done.returncode == 0 and not done.stderr and len(results) == len(cases) > 0
     said = "" if complete else (f"status {done.returncode}, {len(results)} results for "

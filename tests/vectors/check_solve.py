@@ -12,7 +12,7 @@ PRESSURE_TOLERANCE = 1e-6  # relative
 
 def solve(graben, text):
     done = subprocess.run([graben, "solve", "--policy", "algorithm1"], input=text,
-                          capture_output=True, text=True, timeout=120)
+                          capture_output=True, text=True, timeout=1800)
     return done.returncode, [json.loads(line) for line in done.stdout.splitlines()], done.stderr
 
 

@@ -78,7 +78,7 @@ def main():
     cases = [random_case(seed) for seed in range(int(sys.argv[2]) if len(sys.argv) > 2 else CASES)]
     done = subprocess.run([graben, "solve", "--policy", "algorithm1"],
                           input="".join(json.dumps(c) + "\n" for c in cases),
-                          capture_output=True, text=True, timeout=120)
+                          capture_output=True, text=True, timeout=1800)
     results = [json.loads(line) for line in done.stdout.splitlines()]
     assert done.returncode == 0 and len(results) == len(cases), done.stderr
     wrong = 0

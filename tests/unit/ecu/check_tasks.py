@@ -29,7 +29,7 @@ def main() -> int:
     def expect(status, words, profile, *tasks, reaches_bus=False):
         told = [word for task in tasks for word in ("--task", task)]
         done = subprocess.run([ecu, "--can", "no_can0", "--profile", profile, *told, "--no-realtime"],
-                              capture_output=True, text=True, timeout=60, check=False)
+                              capture_output=True, text=True, timeout=1800, check=False)
         if done.returncode != status or done.stdout or not all(word in done.stderr for word in words):
             problems.append(f"{told}: status {done.returncode}, expected {status} and {words}:\n{done.stderr}")
         if (NO_BUS.fullmatch(done.stderr) is not None) != reaches_bus:

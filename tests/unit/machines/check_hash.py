@@ -43,7 +43,7 @@ def profiles(folder):
 
 def hash_of(program, path, document_text):
     path.write_text(document_text, encoding="utf-8")
-    done = subprocess.run([program, "hash", path], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([program, "hash", path], capture_output=True, text=True, timeout=1800)
     return done.stdout.strip() if done.returncode == 0 else None
 
 

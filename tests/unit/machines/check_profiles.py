@@ -36,7 +36,7 @@ class Reader:
 
     def errors_of_file(self, kind, path):
         done = subprocess.run([self._program, kind, path], capture_output=True, text=True,
-                              timeout=60)
+                              timeout=1800)
         assert done.returncode == (1 if done.stderr else 0) and not done.stdout, done
         return done.stderr
 
@@ -143,13 +143,13 @@ def like_cases(reader, folder, scratch):
 def command_reports(graben, path):
     """The tool passes a profile's errors on: status 1, nothing on its output."""
     done = subprocess.run([graben, "pose", "--profile", path, "--strokes=1.0,1.1,0.4"],
-                          capture_output=True, text=True, timeout=60)
+                          capture_output=True, text=True, timeout=1800)
     if done.returncode != 1 or done.stdout or "here it must be excavator" not in done.stderr:
         yield f"graben pose: status {done.returncode}: {done.stdout}{done.stderr}"
 
 
 def run(*command):
-    return subprocess.run(command, capture_output=True, text=True, timeout=60)
+    return subprocess.run(command, capture_output=True, text=True, timeout=1800)
 
 
 def without_simulation(graben, scratch, good):

@@ -62,7 +62,7 @@ SLIPS = [
 
 def check(graben, profile, out, *options):
     return subprocess.run([graben, "check", profile, "--out", out, *options], capture_output=True,
-                          text=True, timeout=60)
+                          text=True, timeout=1800)
 
 
 def slip(graben, folder, scratch, row):
@@ -160,7 +160,7 @@ def main():
         (scratch / "wrong.toml").write_text('kind = "dozer"\n', encoding="utf-8")
         if check(graben, scratch / "wrong.toml", scratch).returncode != 1:
             wrong.append("a wrong profile passes")
-    keys = subprocess.run([graben, "check", "--keys"], capture_output=True, text=True, timeout=60)
+    keys = subprocess.run([graben, "check", "--keys"], capture_output=True, text=True, timeout=1800)
     if keys.stdout != (folder / "KEYS.md").read_text(encoding="utf-8"):
         wrong.append("app/machines/KEYS.md is not what `graben check --keys` prints")
     print("\n".join(wrong) or f"{len(SLIPS)} slips are warned of")
