@@ -192,7 +192,7 @@ class Schema:
         if errors is None:
             return None
         if not any(self.inside.values()):
-            sys.exit(f"mutation: {self.job.mutated} does not compile unchanged\n{errors}")
+            sys.exit(f"{errors}\nmutation: {self.job.mutated} fails its test unchanged: the gate is dead")
         lines = {int(line) for line in re.findall(rf"{re.escape(self.job.mutated)}:([0-9]+)[:,]", errors)}
         return {index for first, last, index in owners if any(first <= line <= last for line in lines)}
 
