@@ -34,6 +34,8 @@ graben_thorough("canary_package_contents"
 graben_thorough("canary_hil_panic"
   canary_hil_exit canary_hil_hang canary_hil_stuck canary_hil_library canary_hil_nowhere canary_hil_nowhere_ci
   canary_hil_no_kernel)
+graben_thorough("canary_mutation_survivor, canary_mutation_weakened"
+  canary_mutation_scopes canary_mutation_excuse canary_mutation_hanging canary_mutation_dead canary_mutation_red)
 graben_thorough("canary_margins_gain" canary_margins_assumed canary_margins_lag)
 graben_thorough("closed_loop_cells fails alike where the law is broken" canary_cells)
 
