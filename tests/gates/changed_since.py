@@ -58,7 +58,7 @@ def changed(root: pathlib.Path, area: str) -> tuple[set[str] | None, str]:
 
 
 def below(names: set[str], paths: list[str]) -> list[str]:
-    return sorted(name for name in names if any(name == path or name.startswith(path.rstrip("/") + "/") for path in paths))
+    return sorted(name for name in names if any(path == "." or name == path or name.startswith(path.rstrip("/") + "/") for path in paths))
 
 
 def record(root: pathlib.Path, areas: list[str]) -> None:

@@ -53,6 +53,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert names == {changed_since.RECORD, "firmware/a.cpp", "firmware/b.cpp", "new.cpp"}, names
     assert changed_since.below(names, ["firmware"]) == ["firmware/a.cpp", "firmware/b.cpp"]
     assert changed_since.below(names, ["firm", "b.cpp"]) == []
+    assert changed_since.below(names, ["."]) == sorted(names)
 
     whole = pathlib.Path(folder, "whole")
     git(pathlib.Path(folder), "clone", "-q", f"file://{origin}", str(whole))
