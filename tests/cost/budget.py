@@ -18,7 +18,7 @@ import sys
 import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
-TABLE = re.compile(r"(<!-- table cost \(tests/cost\) -->\n\n).*?(\n<!-- end of table -->)", re.DOTALL)
+TABLE = re.compile(r"(<!-- table cost \(tests/cost\) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 KEPT = 1.0  # Units: a test below that is not written down.
 GREW = 1.2  # Of what it was.
 
@@ -96,7 +96,7 @@ def write(budget: dict, stages: dict, tests: dict, objects: dict, unit_s: float)
     (HERE / "budget.toml").write_text(text, encoding="utf-8")
     readme = HERE.parent / "README.md"
     old = readme.read_text(encoding="utf-8")
-    new, count = TABLE.subn(lambda match: match[1] + table(stages, tests, objects, unit_s) + match[2], old)
+    new, count = TABLE.subn(lambda match: match[1] + "\n" + table(stages, tests, objects, unit_s) + "\n" + match[2], old)
     if count != 1:
         sys.exit("budget: tests/README.md has no place for the table")
     readme.write_text(new, encoding="utf-8")
