@@ -61,7 +61,7 @@ def table(stages: dict, tests: dict, objects: dict, unit_s: float) -> str:
     named = [("`./run`, fresh: build and one dig", stages.get("first sight", 0.0)), ("`./test`, fresh", sum(stages.values())),
              *((f"stage: {name}", seconds) for name, seconds in dearest(stages, 6)),
              *((f"test: `{name}`: {proofs.get(name, '')}", seconds) for name, seconds in dearest(tests, 10)),
-             *((f"object: `{name}` (wall clock)", seconds) for name, seconds in dearest(objects, 5))]
+             *((f"object: {name} (wall clock)", seconds) for name, seconds in dearest(objects, 5))]
     lines += [f"| {name} | {seconds / unit_s:.0f} | {seconds:.0f} |" for name, seconds in named]
     return "\n".join(lines) + "\n"
 
