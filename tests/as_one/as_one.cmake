@@ -36,8 +36,8 @@ function(graben_unit_program target)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.parts)
   file(CONFIGURE OUTPUT ${folder}/headers.hpp CONTENT "#pragma once\n@libraries_headers@\n@headers@\n" @ONLY)
 
-  # The sources in a few parts, each source in a namespace of its own: so main, and whatever else two of
-  # them call alike, is not the same.
+  # The sources in a few parts, each source in namespaces of its own: what two of them call alike is not the
+  # same, and what one of them does not use is a warning.
   set(group 9)
   set(parts)
   list(LENGTH tests count)
@@ -47,17 +47,16 @@ function(graben_unit_program target)
     list(SUBLIST tests ${first} ${group} part)
     list(SUBLIST sources ${first} ${group} part_sources)
     foreach(test source IN ZIP_LISTS part part_sources)
-      string(APPEND bodies "namespace ${test} {\n#include \"${source}\"\n}\n")
+      string(APPEND bodies "namespace ${test} {\nnamespace {\n#include \"${source}\"\n}\n}\n")
     endforeach()
     file(CONFIGURE OUTPUT ${folder}/tests_${first}.cpp CONTENT "#include \"headers.hpp\"\n@bodies@" @ONLY)
     list(APPEND parts ${folder}/tests_${first}.cpp)
   endforeach()
 
-  set(declared)
   set(rows)
-  foreach(test ${tests})
-    string(APPEND declared "namespace ${test} {\nint main();\n}\n")
-    string(APPEND rows "    {\"${test}\", ${test}::main},\n")
+  foreach(test source IN ZIP_LISTS tests sources)
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    string(APPEND rows "    {\"${test}\", \"${source}\"},\n")
   endforeach()
   configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_one.cpp.in ${folder}/run_one.cpp @ONLY)
   add_executable(${target} ${folder}/run_one.cpp ${parts})

@@ -12,8 +12,6 @@
 #include "tests/example_kind/loader_kind.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using Rig = runs::LoopbackRig<LoaderKind>;
 using Bus = LoaderKind::Dbc;
@@ -117,7 +115,3 @@ TEST(stops_on_five_faults) {
   stops(Fault::kIdentityMismatch, other(true), other(false));
   stops(Fault::kSpoolStuck, hold(-0.9), hold({}));
 }
-
-}  // namespace
-
-RUN_TESTS()

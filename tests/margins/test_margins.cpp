@@ -10,8 +10,6 @@
 #include "tests/margins/shipped_law.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::margins;
 
@@ -198,7 +196,3 @@ TEST(what_is_wrong_is_told) {
   assert_true(alpha(2.0, 1.0) < 0.3 * sound);
   assert_near(alpha(0.8, 3.0), 0.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

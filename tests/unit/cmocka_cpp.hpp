@@ -70,19 +70,49 @@ struct RegisteredForEach {
   Registered each[sizeof...(Kinds)];
 };
 
+/// What a source needs before its first test and after its last.
+struct Within {
+  Within(const char* source, CMFixtureFunction first, CMFixtureFunction last) noexcept
+      : file(source), before(first), after(last), next(newest()) {
+    newest() = this;
+  }
+  static const Within*& newest() noexcept {
+    static const Within* one = nullptr;
+    return one;
+  }
+
+  const char* file;
+  CMFixtureFunction before;
+  CMFixtureFunction after;
+  const Within* next;
+};
+
+/// Whether a compiler's name of a file is this path in the repository; "" is each.
+inline bool is_file(const char* file, const char* path) {
+  const std::size_t length = std::strlen(file);
+  const std::size_t end = std::strlen(path);
+  return length >= end && std::strcmp(file + (length - end), path) == 0;
+}
+
 /// Runs the tests of one source, in their order there. A source without any fails.
-inline int run_source(const char* file, CMFixtureFunction setup, CMFixtureFunction teardown) {
+inline int run_source(const char* path) {
   std::vector<CMUnitTest> tests;
   for (const Registered* one = Registered::first(); one != nullptr; one = one->next) {
-    if (std::strcmp(one->file, file) == 0) {
+    if (is_file(one->file, path)) {
       tests.push_back(one->test);
     }
   }
   if (tests.empty()) {
-    print_error("%s has no tests\n", file);
+    print_error("%s has no tests\n", path);
     return 1;
   }
-  return _cmocka_run_group_tests(file, tests.data(), tests.size(), setup, teardown);
+  const Within* within = Within::newest();
+  while (within != nullptr && !is_file(within->file, path)) {
+    within = within->next;
+  }
+  return _cmocka_run_group_tests(path, tests.data(), tests.size(),
+                                 within == nullptr ? nullptr : within->before,
+                                 within == nullptr ? nullptr : within->after);
 }
 
 }  // namespace graben::test
@@ -104,11 +134,9 @@ inline int run_source(const char* file, CMFixtureFunction setup, CMFixtureFuncti
   template <class Kind>                                                                       \
   void name::run(void**)
 
-/// The end of a source with tests. WITHIN: between a function before the first and one after the
-/// last.
-#define RUN_TESTS() RUN_TESTS_WITHIN(nullptr, nullptr)
-#define RUN_TESTS_WITHIN(before, after) \
-  int main() { return graben::test::run_source(__FILE__, before, after); }
+/// Called before the first test of a source and after its last.
+#define TESTS_WITHIN(before, after) \
+  static const graben::test::Within fixture_of_all(__FILE__, before, after);
 
 /// Fails, and prints the values, unless |a - b| <= tol.
 #define assert_near(a, b, tol) graben::test::check_near((a), (b), (tol), #a, __FILE__, __LINE__)

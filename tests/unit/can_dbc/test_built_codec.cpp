@@ -7,8 +7,6 @@
 #include "loader_dbc.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 namespace bus = graben::dbc::loader;
 using graben::dbc::RawState;
 
@@ -40,7 +38,3 @@ TEST(what_is_sent_is_received) {
   assert_near(received.lift_stroke_m.value, 0.75, 1e-12);
   assert_near(received.lift_spool_ratio.value, -0.5, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

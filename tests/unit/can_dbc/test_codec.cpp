@@ -4,8 +4,6 @@
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "tests/unit/can_dbc/codec_rules.hpp"
 
-namespace {
-
 using namespace graben::codec_test;
 namespace bus = graben::dbc::excavator;
 
@@ -145,7 +143,3 @@ TEST(start_values) {
   assert_int_equal(bus::OperatorCommand{}.enable.value, bus::OperatorCommand::Enable::kOff);
   check_start_values<bus::AllMessages>();
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "tests/unit/can_dbc/codec_rules.hpp"
 
-namespace {
-
 using namespace graben::codec_test;
 namespace bus = graben::dbc::dozer;
 
@@ -101,7 +99,3 @@ TEST(start_values) {
                    bus::PumpDisplacementCommand::Brake::kOn);
   check_start_values<bus::AllMessages>();
 }
-
-}  // namespace
-
-RUN_TESTS()

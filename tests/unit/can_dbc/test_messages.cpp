@@ -9,8 +9,6 @@
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using graben::dbc::MessageInfo;
 namespace dozer = graben::dbc::dozer;
 namespace excavator = graben::dbc::excavator;
@@ -135,7 +133,3 @@ TEST(kinds_share_what_they_name_alike) {
   }
   assert_int_equal(shared, 9);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -10,8 +10,6 @@
 #include "tests/unit/firmware/dozer_fixture.hpp"
 #include "tests/unit/firmware/tilting_dozer.hpp"
 
-namespace {
-
 using namespace graben;
 using test::has;
 
@@ -165,7 +163,3 @@ TEST(what_the_machine_cannot_make_is_refused_with_the_place) {
       refusal({{0.0, 0.0}, {5.0, 0.0}, {5.7, -0.4}, {8.0, -0.4}, {20.0, -0.4}});
   assert_true(has(tips, "with the body at x ="));
 }
-
-}  // namespace
-
-RUN_TESTS()

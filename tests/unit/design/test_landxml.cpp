@@ -3,8 +3,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-namespace {
-
 using namespace graben;
 using test::has;
 
@@ -93,7 +91,3 @@ TEST(what_is_malformed_is_refused_with_its_element) {
       refusal(file_of(kMetres, "<Surface name=\"a\"><Definition surfType=\"grid\"/></Surface>")),
       "surfType=\"grid\"; allowed: TIN"));
 }
-
-}  // namespace
-
-RUN_TESTS()

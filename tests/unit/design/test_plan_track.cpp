@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-namespace {
-
 using namespace graben;
 using test::has;
 
@@ -155,7 +153,3 @@ TEST(what_cant_be_made_is_refused_with_the_station) {
   });
   assert_true(has(tight, "a radius of 1.50 m from station 28.50 m on; allowed: at least 2 m"));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-namespace {
-
 using namespace graben;
 using test::has;
 
@@ -74,7 +72,3 @@ TEST(what_is_malformed_is_refused_with_its_line) {
   assert_true(has(refusal("0 0 0\n1 0 0\n0 1 0\n0 0 1\n"), "allowed: one height a place"));
   assert_true(has(refusal("0 0 0\n1e6 0 0\n0 1 0\n"), "reaches over 1000000 m"));
 }
-
-}  // namespace
-
-RUN_TESTS()

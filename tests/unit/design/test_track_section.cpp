@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-namespace {
-
 using namespace graben;
 using test::has;
 
@@ -177,7 +175,3 @@ TEST(unless_told_it_goes_along_x_through_the_middle) {
   assert_near(track.from_m.y(), 7.0, 1e-12);
   assert_near(track.to_m.x(), 30.0, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -14,8 +14,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 
 struct Excavator {
@@ -52,6 +50,8 @@ struct Dozer {
     return machines::load_dozer(machines::find_profile("dozer_9t")).profile;
   }
 };
+
+#define TEST_ON_BOTH(name) TEST_OF_EACH(name, Kind, Excavator, Dozer)
 
 constexpr TimeUs kCycleUs = 10'000;
 
@@ -359,7 +359,3 @@ TEST_FOR_EACH(what_is_wrong_with_frames_reaches_the_controller, Kind, Excavator,
   }
   assert_true(link.message_faults.has(Fault::kMessageCorrupt));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -13,8 +13,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 /// The manager's end, by an abstract name.
@@ -72,7 +70,3 @@ TEST(without_a_manager_it_is_kept_for_the_end) {
   assert_string_equal(note.words().c_str(), "node 2 had emergency FF01h, the last of 1");
   assert_int_equal(note.count(), 1);
 }
-
-}  // namespace
-
-RUN_TESTS()

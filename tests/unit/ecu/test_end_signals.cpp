@@ -16,8 +16,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using ecu::EndSignals;
 using ecu::LastFrames;
@@ -124,7 +122,3 @@ TEST(more_frames_than_fit_are_left_out) {
   last.put(many.data(), many.size());
   assert_int_equal(last.get().count, LastFrames::kMost);
 }
-
-}  // namespace
-
-RUN_TESTS()

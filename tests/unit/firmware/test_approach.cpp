@@ -4,8 +4,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 
-namespace {
-
 using namespace graben;
 
 const test::ReplayMachine& machine() {
@@ -145,7 +143,3 @@ TEST(from_beyond_a_fence_it_only_leads_away) {
   from[kSwing] = 2.2;
   assert_true(search(task, from).search.failed);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "app/machines/profile_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 const ExcavatorProfile& profile() {
@@ -62,7 +60,3 @@ TEST(the_worst_pushes_against_what_is_wanted) {
   // What is to stand keeps its weight.
   assert_near(worst[kBoom].cap_pa, likely[kBoom].cap_pa, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -3,8 +3,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 const BladeGeometry& geometry() { return test::dozer().profile.blade; }
@@ -65,7 +63,3 @@ TEST(beyond_its_reach_it_stays_at_the_end) {
   assert_near(blade.stroke_m(9.0), 0.0, 1e-12);
   assert_near(blade.stroke_m(-9.0), blade.stroke_max_m(), 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

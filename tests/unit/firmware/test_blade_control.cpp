@@ -4,8 +4,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -161,7 +159,3 @@ TEST(towards_its_ends_it_slows_down) {
   assert_near(command(test::level(3.0), now).velocity_mps, 0.0, 1e-9);
   assert_true(command(test::level(-3.0), now).velocity_mps > 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

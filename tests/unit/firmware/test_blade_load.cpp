@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -104,7 +102,3 @@ TEST(a_load_keeps_a_reserve_of_flow) {
   assert_near(share_at(0.6), 0.75, 1e-12);
   assert_near(share_at(2.0), 0.75, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

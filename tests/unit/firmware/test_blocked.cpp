@@ -3,8 +3,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -251,7 +249,3 @@ TEST(giving_way_is_known_at_once) {
     }
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

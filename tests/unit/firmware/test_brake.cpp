@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.0625;
@@ -92,7 +90,3 @@ TEST(tracks_that_are_not_seen_come_to_rest_in_a_second) {
   state = brake(state, {EcuMode::kFault, Fault::kTransmissionMissing}, valid, 1e9);
   assert_near(state.coasting_s, 2.0 * kCoasting_s, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

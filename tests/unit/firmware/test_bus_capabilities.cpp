@@ -11,8 +11,6 @@
 #include "tests/unit/firmware/plain_dozer.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using Silence = void (*)(ExcavatorInputs&);
 
@@ -300,7 +298,3 @@ TEST(the_blade_is_watched_by_its_command) {
   assert_int_equal(fault, Fault::kUncommandedMotion);
   assert_true(spools_centred(bank.rows(), inputs.drive));
 }
-
-}  // namespace
-
-RUN_TESTS()

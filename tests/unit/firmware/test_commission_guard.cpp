@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/unit/firmware/guarded_cylinder.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test::guarded;
 
@@ -235,7 +233,3 @@ TEST(an_end_is_not_met_fast) {
     assert_near(left_m, (0.2 - kTouch_mps) * kStops_s, 0.005);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -3,8 +3,6 @@
 
 #include "tests/unit/firmware/guarded_cylinder.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test::guarded;
 
@@ -170,7 +168,3 @@ TEST(what_may_move_unseen_is_held_back) {
     assert_near(cylinder.result.duty_ratio, 0.4 * side, 0.0);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

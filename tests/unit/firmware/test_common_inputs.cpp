@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr TimeUs kNow = 5 * kSecondUs;
@@ -319,7 +317,3 @@ TEST(closing_ends_centred_or_by_hand) {
   valid.faults.add(Fault::kOperatorMissing);
   assert_true(still_closing(true, true, kUnseen, valid));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -3,8 +3,6 @@
 
 #include "tests/unit/firmware/running.hpp"
 
-namespace {
-
 using namespace graben;
 using test::assert_neutral;
 using test::Running;
@@ -208,7 +206,3 @@ TEST(a_small_jump_that_stays_stops) {
   assert_true(running.outputs.status.faults.has(Fault::kStrokeJump));
   assert_neutral(running.outputs);
 }
-
-}  // namespace
-
-RUN_TESTS()

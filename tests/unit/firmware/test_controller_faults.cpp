@@ -9,8 +9,6 @@
 #include "tests/unit/firmware/memory_access.hpp"
 #include "tests/unit/firmware/running.hpp"
 
-namespace {
-
 using namespace graben;
 using test::assert_neutral;
 using test::fresh;
@@ -344,7 +342,3 @@ TEST(the_status_names_all_faults) {
   digging.step(digging.inputs());
   assert_true(digging.outputs.status.faults.bits() == bits({Fault::kSwashMissing}));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -9,8 +9,6 @@
 #include "firmware/dozer/tilt.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kReach_m = 2.27;
@@ -140,7 +138,3 @@ TEST(a_course_goes_on) {
   assert_near(after.offset_m, 0.1 + 0.2 * std::sin(0.02), 1e-12);
   assert_near(after.heading_rad, 0.02 + 0.2 * (0.03 - 0.05), 1e-9);
 }
-
-}  // namespace
-
-RUN_TESTS()

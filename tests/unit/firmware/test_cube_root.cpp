@@ -7,8 +7,6 @@
 #include "firmware/numeric/cube_root.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using graben::cube_root;
 
 std::int64_t bits_of(double value) {
@@ -94,7 +92,3 @@ TEST(what_has_no_digits_is_returned) {
 
 /// The same bits on every target: what this one has to give, taken from IEEE 754 arithmetic.
 TEST(its_bits_are_these) { assert_true(bits_of(cube_root(2.0)) == bits_of(0x1.428a2f98d728bp+0)); }
-
-}  // namespace
-
-RUN_TESTS()

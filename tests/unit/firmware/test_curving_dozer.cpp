@@ -5,8 +5,6 @@
 #include "tests/unit/firmware/grading_dozer.hpp"
 #include "tests/unit/firmware/tilting_dozer.hpp"
 
-namespace {
-
 using namespace graben;
 using test::Grading;
 using test::on;
@@ -116,7 +114,3 @@ TEST(a_straight_track_needs_none_of_it) {
   assert_int_equal(grading.outputs.status.mode, EcuMode::kActive);
   assert_near(grading.outputs.pump_ratio[kLeft], grading.outputs.pump_ratio[kRight], 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr EcuMode kModes[] = {EcuMode::kSilent, EcuMode::kReady,    EcuMode::kArmed,
@@ -299,7 +297,3 @@ TEST(a_long_gap_is_a_stall) {
   assert_int_equal(clock.after(20 * kMillisecondUs), Fault::kCycleOverrun);
   assert_int_equal(clock.after(60 * kMillisecondUs), Fault::kCycleStalled);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/rounds.hpp"
 
-namespace {
-
 using namespace graben;
 using test::stroke_end_cap;
 
@@ -179,7 +177,3 @@ TEST(a_cylinder_near_its_end_slows_all_axes_alike) {
   assert_near(closing.factor, 0.0, 0.0);
   assert_int_equal(closing.limit.index, kArm);
 }
-
-}  // namespace
-
-RUN_TESTS()

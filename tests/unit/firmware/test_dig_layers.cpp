@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 /// 2 m of ground that stands 0.5 m over its design, for a bucket of 1 m.
@@ -350,7 +348,3 @@ TEST(ground_below_its_design_is_met) {
   low.ground_to_m = -0.1;
   assert_true(undug(low).met);
 }
-
-}  // namespace
-
-RUN_TESTS()

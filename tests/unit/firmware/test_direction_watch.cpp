@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -244,7 +242,3 @@ TEST(each_side_has_its_own_dead_band) {
     }
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

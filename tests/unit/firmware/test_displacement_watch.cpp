@@ -6,8 +6,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kTolerance = 0.125;
@@ -236,7 +234,3 @@ TEST(the_history_begins_at_neutral) {
   motor.measured = 0.5;
   assert_int_equal(motor.cycles_until_away(), kRunawayCycles);
 }
-
-}  // namespace
-
-RUN_TESTS()

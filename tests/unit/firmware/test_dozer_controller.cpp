@@ -9,8 +9,6 @@
 #include "tests/unit/firmware/grading_dozer.hpp"
 #include "tests/unit/firmware/memory_access.hpp"
 
-namespace {
-
 using namespace graben;
 using test::assert_neutral;
 using test::Grading;
@@ -290,7 +288,3 @@ TEST(a_design_out_of_reach_ends_at_the_stroke) {
   assert_near(grading.stroke_m, grading.blade.stroke_max_m(), 1e-3);
   assert_int_equal(grading.outputs.status.limit.kind, LimitKind::kStrokeEnd);
 }
-
-}  // namespace
-
-RUN_TESTS()

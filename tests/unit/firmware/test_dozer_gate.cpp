@@ -8,8 +8,6 @@
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kLong_s = 1.0;  // Longer than any rate limit needs.
@@ -204,7 +202,3 @@ TEST(a_flipped_bit_does_not_matter_at_rest) {
   assert_int_equal(result.fault, Fault::kNone);
   assert_neutral(result);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -3,8 +3,6 @@
 
 #include "tests/unit/firmware/dozer_watch_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test::of_dozer;
 
@@ -160,7 +158,3 @@ TEST(the_engines_speed_may_be_missing) {
     machine.state.pose = {};
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

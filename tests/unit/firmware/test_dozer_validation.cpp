@@ -8,8 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 
-namespace {
-
 using namespace graben;
 using test::complete_dozer_inputs;
 
@@ -310,7 +308,3 @@ TEST(a_track_that_bends_asks_where_the_body_is_beside_it) {
     assert_true(said.faults.has(Fault::kPoseMissing) && said.faults.has(Fault::kSensorError));
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

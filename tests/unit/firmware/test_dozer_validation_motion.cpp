@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr bool kMoving = true;
@@ -230,7 +228,3 @@ TEST(outside_motion_nothing_jumps) {
     assert_near(machine.believed(), Machine::far(), 0.0);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -3,8 +3,6 @@
 
 #include "tests/unit/firmware/dozer_watch_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test::of_dozer;
 
@@ -224,7 +222,3 @@ TEST(centred_is_within_the_tolerance) {
     assert_false(spools_centred(bank.rows(), valid.drive));
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

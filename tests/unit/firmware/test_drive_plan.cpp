@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 /// Round numbers: swing 1 rad/s left, 0.5 right.
@@ -130,7 +128,3 @@ TEST(nothing_to_move_has_no_duration) {
   assert_true(drive_state(plan, 1.0).value == here);
   assert_true(drive_state(plan, 1.0).velocity.isZero(0.0));
 }
-
-}  // namespace
-
-RUN_TESTS()

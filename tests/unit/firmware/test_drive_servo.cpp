@@ -10,8 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/servo_steps.hpp"
 
-namespace {
-
 using namespace graben;
 using test::control;
 using test::corrected_velocity;
@@ -342,7 +340,3 @@ TEST(what_a_load_holds_is_not_owed) {
     assert_near(servo.bias_mps, blocked == 1 ? 0.0 : 0.01, 1e-9);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

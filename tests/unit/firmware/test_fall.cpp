@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -89,7 +87,3 @@ TEST(a_deep_fall_is_driven_to_slowly) {
   const FallState none = after(GradeProfile(test::level(0.0)), level_at(0.0, 0.1), 0.1);
   assert_true(none.speed_mps > 10.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -3,8 +3,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 TEST(it_begins_empty) {
@@ -64,7 +62,3 @@ TEST(sets_are_united) {
   assert_int_equal(some.after(Fault::kPressureMissing), Fault::kBusOff);
   assert_false(others.has(Fault::kStrokeMissing));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include <array>
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr bool kCutsPilot = true;
@@ -121,7 +119,3 @@ TEST(what_is_no_fault_does_nothing) {
     assert_false(cuts_pilot(static_cast<Fault>(code)));
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 
-namespace {
-
 using namespace graben;
 
 const test::ReplayMachine& machine() {
@@ -178,7 +176,3 @@ TEST(strokes_that_can_t_be_have_no_points) {
       machine_motion(machine().kinematics, {0.5, 1.2, 0.4, 0.0}, DriveVector::Zero());
   assert_int_equal(motion.status, ReachStatus::kArmStroke);
 }
-
-}  // namespace
-
-RUN_TESTS()

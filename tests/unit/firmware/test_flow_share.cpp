@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -66,7 +64,3 @@ TEST(what_was_not_commanded_does_not_count) {
   }
   assert_near(state.share, FlowShareState{}.share, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "tests/unit/firmware/flow_fixture.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test::of_flow;
 
@@ -185,7 +183,3 @@ TEST(each_side_has_its_own_curve) {
   assert_near(most(0.3), 0.0, 0.0);
   assert_near(most(-0.2), 0.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -3,8 +3,6 @@
 
 #include "tests/unit/firmware/flow_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test::of_flow;
 
@@ -374,7 +372,3 @@ TEST(a_valve_that_is_not_learnt_is_given_more_time) {
   assert_true(sooner > 0);
   assert_true(later == 0 || later > sooner);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kLatency_s = 0.02;
@@ -79,7 +77,3 @@ TEST(what_comes_in_time_stays) {
     assert_near(foretold(shown(angle_rad, at_us), 0.0, state).value, angle_rad, 0.0);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

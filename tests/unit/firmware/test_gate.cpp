@@ -9,8 +9,6 @@
 #include "tests/unit/firmware/plain_machine.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-namespace {
-
 using namespace graben;
 using test::gate;
 using test::Gated;
@@ -280,7 +278,3 @@ TEST(each_side_has_its_own_table) {
   assert_near(duty(0.625, 0), 0.75, 1e-12);
   assert_near(duty(0.25, 2), 0.4375, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

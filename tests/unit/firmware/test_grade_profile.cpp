@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 const GradeDesign& design() { return test::dozer().profile.grade; }
@@ -151,7 +149,3 @@ TEST(heights_have_a_plane_and_a_floor) {
   assert_near(profile.at(5.0).height_m, 1.0 + 0.02 * 5.0 - 0.2, 1e-12);
   assert_near(profile.at(5.0).slope, 0.02, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 const DozerBody& body() { return test::dozer().profile.body; }
@@ -199,7 +197,3 @@ TEST(noise_of_the_position_is_left_behind) {
   assert_true(largest_m < 0.001);
   assert_near(next_position(state, 99.0, 1.0, 0.01).position_m, 99.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

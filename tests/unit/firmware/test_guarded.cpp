@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 
-namespace {
-
 using namespace graben;
 
 struct Small {
@@ -72,7 +70,3 @@ TEST(damage_is_not_copied_away) {
   guarded = 0.5;
   assert_true(guarded.intact());
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -216,7 +214,3 @@ TEST(no_stored_speed_is_too_fast) {
   hand.step();
   assert_true(hand.want.wanted_mps.cwiseAbs().maxCoeff() < 0.32);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -10,8 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 const ExcavatorProfile& machine() { return test::excavator().profile; }
@@ -148,7 +146,3 @@ TEST(an_edge_is_looked_for_at_once_and_steadily) {
   next_learnt(boom, {}, {}, false, 0.01, valve);
   assert_false(stands_open(valve));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPerRpm = 6.28318530717958647693 / 60.0;
@@ -124,7 +122,3 @@ TEST(out_of_reach_the_integral_stands_still) {
   }
   assert_near(state.integral_mps, 0.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "tests/unit/firmware/drive_replay.hpp"
 #include "tests/unit/rounds.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr int kPlaces = test::rounds(3000, 300);
@@ -189,7 +187,3 @@ TEST(faces_and_corners) {
   // Far away it may be told nearer, but no nearer than that.
   assert_true(gap(box, motion, MachinePart::kBucketPart, 0.2).distance_m >= 0.2);
 }
-
-}  // namespace
-
-RUN_TESTS()

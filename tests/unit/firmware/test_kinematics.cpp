@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr int kSteps = 16;
@@ -168,7 +166,3 @@ TEST(strokes_outside_the_cylinder_are_refused) {
     assert_int_equal(machine().state(strokes).status, ReachStatus::kNotFinite);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

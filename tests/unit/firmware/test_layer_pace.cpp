@@ -5,8 +5,6 @@
 
 #include "tests/unit/firmware/layer_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::layer_test;
 
@@ -44,7 +42,3 @@ TEST(a_lift_follows_a_cut_at_once) {
     return at.step == 1;
   });
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/firmware/layer_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::layer_test;
 
@@ -255,7 +253,3 @@ TEST(what_can_t_be_dug_in_layers_is_refused) {
                  [](Request& asked) { asked.step[0].strips = kStripMost + 1; });
   assert_refused(ProgramRefusal::kBlindSpot, [](Request& asked) { asked.step[0].ground_m = 9.0; });
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/firmware/layer_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::layer_test;
 
@@ -68,7 +66,3 @@ TEST(without_a_payload_there_is_none) {
     return at.phase == TaskPhase::kDone;
   });
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/firmware/layer_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using layer_test::machine;
 using test::kCycle_s;
@@ -144,7 +142,3 @@ TEST(comes_down_flat_and_leaves_upwards) {
   assert_true(lowest_m > -0.03 && lowest_m < 0.0);
   assert_true(up_again);
 }
-
-}  // namespace
-
-RUN_TESTS()

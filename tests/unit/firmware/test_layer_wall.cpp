@@ -6,8 +6,6 @@
 #include "firmware/excavator/tasks/layer_run.hpp"
 #include "tests/unit/firmware/layer_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::layer_test;
 
@@ -111,7 +109,3 @@ TEST(a_folded_heel_that_bears_goes_straight_up) {
   assert_near(after(2.0).attitude_rad, 0.0, 1e-9);
   assert_true(after(2.0).position_m.z() > 0.2);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -373,7 +371,3 @@ TEST(what_is_felt_stays_within_bounds) {
   static_cast<void>(speed_after_mps(bench, 0.003, 10.0));
   assert_near(bench.valve.extend.edge, 0.07, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "tests/unit/firmware/drive_replay.hpp"
 #include "tests/unit/rounds.hpp"
 
-namespace {
-
 using namespace graben;
 using test::kCycle_s;
 
@@ -184,7 +182,3 @@ TEST(no_limit_is_overrun) {
     assert_true(tally.free > kTargets / 20);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

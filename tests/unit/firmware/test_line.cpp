@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kTwoPi = 6.28318530717958647693;
@@ -153,7 +151,3 @@ TEST(distance_from_a_line_and_from_a_turn_on_the_spot) {
   line.change.attitude_rad = 0.5;
   assert_near(line_distance_m(line, {1.0, 2.0, 2.5}), 0.5, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

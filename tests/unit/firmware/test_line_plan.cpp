@@ -9,8 +9,6 @@
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/rounds.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr int kTargets = test::rounds(10000, 300);
@@ -294,7 +292,3 @@ TEST(random_targets_keep_all_limits_or_say_where_not) {
     assert_true(refused[static_cast<unsigned>(drive)] > kTargets / 100);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -187,7 +185,3 @@ TEST(falls_without_direction) {
   }
   assert_near(state.angle_rad, before, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 McvMachine kim() { return mcv_machine(test::excavator().profile); }
@@ -224,7 +222,3 @@ TEST(bad_machines_and_inputs_are_safe) {
   refused(McvDefect::kBypassSeries, [&](auto& m, auto&) { m.pump[1].series_resistance = nan; });
   refused(McvDefect::kRelief, [](auto& m, auto&) { m.pump[1].relief_pa = 0.0; });
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kStep_s = 1e-6;
@@ -94,7 +92,3 @@ TEST(pitch_is_nose_up) {
   assert_true((rotation_from_pitch(0.1) * Eigen::Vector3d::UnitX()).z() > 0.0);
   assert_near(rotation_from_pitch(0.7).determinant(), 1.0, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include <initializer_list>
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 ModeRequest asks(bool enable, Task task = Task::kDig, bool automatic = true) {
@@ -214,7 +212,3 @@ TEST(in_motion_nothing_is_in_the_way) {
   assert_int_equal(why(EcuMode::kArmed, moving, slowing), 0);
   assert_int_equal(why(EcuMode::kActive, moving, slowing), 0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 #include "firmware/numeric/monotone_table.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using graben::MonotoneTable;
 using Fill = MonotoneTable::Fill;
 
@@ -55,7 +53,3 @@ TEST(refuses_what_is_no_table) {
   assert_int_equal(table.fill(x, holed, 3), Fill::kNotFinite);
   assert_int_equal(table.size(), 0);
 }
-
-}  // namespace
-
-RUN_TESTS()

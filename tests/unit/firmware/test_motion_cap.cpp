@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 
-namespace {
-
 using namespace graben;
 using test::kCycle_s;
 
@@ -260,7 +258,3 @@ TEST(a_design_lies_where_the_ground_was_felt) {
   assert_near(factor(0.01) / factor(0.0), (0.02 + 5e-5) / (0.03 + 5e-5), 5e-3);
   assert_true(factor(-0.01) > factor(0.0));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "tests/unit/firmware/plain_machine.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.0625;   // Eight of them are the time to settle, to the last bit.
@@ -278,7 +276,3 @@ TEST(each_side_has_its_own_dead_band) {
     assert_true(stuck == (spool_ratio < 0.0));
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -10,8 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 const ExcavatorProfile& machine() { return test::excavator().profile; }
@@ -326,7 +324,3 @@ TEST(one_late_side_leaves_it_to_the_servo) {
     assert_true(quick(kBucket, extends, &SaidAnswer::dead_time_s, 0.2));
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

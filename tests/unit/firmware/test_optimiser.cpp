@@ -9,8 +9,6 @@
 #include "tests/unit/firmware/split.hpp"
 #include "tests/unit/rounds.hpp"
 
-namespace {
-
 using namespace graben;
 using test::kim;
 using test::split_input;
@@ -336,7 +334,3 @@ TEST(fixed_asks_nobody) {
                                                 : machine.actuator[kBucket].retract.x_last(),
               1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -2,8 +2,6 @@
 #include "firmware/dozer/travel/passes.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -160,7 +158,3 @@ TEST(there_are_no_more_than_are_allowed) {
   assert_true(state.finished && state.left);
   assert_int_equal(static_cast<int>(state.phase), static_cast<int>(PassPhase::kCut));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -336,7 +334,3 @@ TEST(a_long_cycle_forgets) {
                   body.state.yawed_rad + body.state.uphill_m + body.state.slipped_m,
               0.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

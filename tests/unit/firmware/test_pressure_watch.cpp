@@ -5,8 +5,6 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kRail_pa = 40e6;
@@ -169,7 +167,3 @@ TEST(what_is_not_known_is_not_judged) {
     assert_true(chamber.wrong());
   });
 }
-
-}  // namespace
-
-RUN_TESTS()

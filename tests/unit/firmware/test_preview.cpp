@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kAllowed_m = 0.006;
@@ -179,7 +177,3 @@ TEST(far_away_it_stays_defined) {
     assert_true(std::isfinite(preview.lift(x_m, 1.0, kAllowed_m).height_m));
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -11,8 +11,6 @@
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/rounds.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -179,7 +177,3 @@ TEST(the_engine_is_not_asked_for_more_than_it_has) {
   }
   assert_near(power_w, rock.profile.demand_swash.most_power_w, 1.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/rounds.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr int kCases = test::rounds(400, 100);
@@ -158,7 +156,3 @@ TEST(first_change_is_the_first) {
   print_message("%d changes, %d ways without\n", counted.found, counted.none);
   assert_true(counted.found > kCases && counted.none > kCases);
 }
-
-}  // namespace
-
-RUN_TESTS()

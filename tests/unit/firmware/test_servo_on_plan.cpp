@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/servo_steps.hpp"
 
-namespace {
-
 using namespace graben;
 using test::corrected_velocity;
 using test::machine;
@@ -141,7 +139,3 @@ TEST(the_load_is_low_passed) {
   assert_near(load[0].cap_pa, before_pa, 0.0);
   assert_near(load[1].cap_pa, 4e6, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "firmware/drives/drive_servo.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -107,7 +105,3 @@ TEST(one_time_that_differs_counts) {
     }
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

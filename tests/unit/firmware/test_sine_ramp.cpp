@@ -3,8 +3,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -114,7 +112,3 @@ TEST(the_rate_at_a_share_is_bounded) {
     assert_near(ramp.most_rate_ps(1.0), 0.0, 0.0);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/firmware/two_sides.hpp"
 
-namespace {
-
 using namespace graben;
 
 /// In the dead band, along the table, and a little beyond its end.
@@ -50,7 +48,3 @@ TEST(the_steepest_part_within_the_range_counts) {
   assert_near(least_travel_per_opening(side, 0.1, 0.2), 0.4, 1e-12);
   assert_near(least_travel_per_opening(side, 0.98, 1.1), 2.0 / 3.0, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -92,7 +90,3 @@ TEST(each_side_has_its_own_edge) {
   valve.extend.edge = 0.05;
   assert_near(parked_duty(row, valve, 1), 0.7 * 0.42, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

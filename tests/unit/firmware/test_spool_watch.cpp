@@ -8,8 +8,6 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using test::spools_centred;
 
@@ -375,7 +373,3 @@ TEST(the_slowest_spool_may_be_tried) {
   valve.sent.duty_ratio = {0.8, 0.0, 0.0};
   assert_true(valve.cycles_until(Fault::kSpoolStuck) > 65);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.015625;  // Binary: 128 of them are 2 s.
@@ -102,7 +100,3 @@ TEST(it_is_bounded) {
   machine.run(1.0, 64);
   assert_int_equal(machine.told(), Fault::kStalling);
 }
-
-}  // namespace
-
-RUN_TESTS()

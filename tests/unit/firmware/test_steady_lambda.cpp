@@ -6,8 +6,6 @@
 #include "tests/unit/firmware/split.hpp"
 #include "tests/unit/rounds.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.01;
@@ -230,7 +228,3 @@ TEST(bad_rises_are_refused) {
   refused({4.0, nan, 0.0}, kPeriod_s);
   refused({4.0, -1.0, 0.0}, kPeriod_s);
 }
-
-}  // namespace
-
-RUN_TESTS()

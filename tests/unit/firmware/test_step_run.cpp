@@ -7,8 +7,6 @@
 #include "firmware/excavator/tasks/step_round.hpp"
 #include "tests/unit/firmware/step_task.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -227,7 +225,3 @@ TEST(numbers_that_say_nothing_are_refused) {
   offset.rounds.offset_m.x() = nan;
   assert_true(bad(offset));
 }
-
-}  // namespace
-
-RUN_TESTS()

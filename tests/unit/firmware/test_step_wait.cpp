@@ -5,8 +5,6 @@
 #include "firmware/excavator/tasks/task_follow.hpp"
 #include "tests/unit/firmware/step_task.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -88,7 +86,3 @@ TEST(a_wait_in_the_ground_moves_with_it) {
   assert_near(teeth.position_m.z(), kTop_m - 0.1, 1e-9);
   assert_near(teeth.position_m.x(), 4.8, 1e-9);
 }
-
-}  // namespace
-
-RUN_TESTS()

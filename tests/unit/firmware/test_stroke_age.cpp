@@ -6,8 +6,6 @@
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using test::complete_inputs;
 
@@ -109,7 +107,3 @@ TEST(at_rest_nothing_is_carried_on) {
   const double begins_m = boom.step(9900);
   assert_near(begins_m, boom.newest.value, 2e-3);
 }
-
-}  // namespace
-
-RUN_TESTS()

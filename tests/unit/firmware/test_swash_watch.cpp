@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr std::array<double, kPumpCount> kWanted = {0.5, 0.75};
@@ -129,7 +127,3 @@ TEST(the_slower_of_both_stands_in) {
   assert_false(pumps.disagree(0.05));
   pumps.assert_flow_with(0.25, kWanted[1] + 0.2 * (1.0 - kWanted[1]));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -10,8 +10,6 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/running.hpp"
 
-namespace {
-
 using namespace graben;
 using test::assert_neutral;
 using test::corrected_velocity;
@@ -274,7 +272,3 @@ TEST(a_task_that_is_none_of_ours_is_refused) {
     }
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

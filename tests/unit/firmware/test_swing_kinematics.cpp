@@ -8,8 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -234,7 +232,3 @@ TEST(swing_goes_on_behind_the_machine) {
   assert_near(swing_near(3.1), kPi + std::atan(0.1 / 5.0), 1e-12);
   assert_near(swing_near(-3.1), -kPi + std::atan(0.1 / 5.0), 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

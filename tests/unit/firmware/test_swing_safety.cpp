@@ -12,8 +12,6 @@
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using test::complete_inputs;
 using test::validate;
@@ -263,7 +261,3 @@ TEST(the_gate_lets_it_through_like_the_others) {
   assert_true(held.enable);
   assert_near(held.duty_ratio[kSwing], 0.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

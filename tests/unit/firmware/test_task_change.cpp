@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.015625;  // Binary, so that times add up to the bit.
@@ -159,7 +157,3 @@ TEST(a_task_that_toggles_stays_at_rest) {
     assert_true(machine.step(n % 2 == 0 ? kFirst : kSecond) == kNothing);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/task_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using test::TaskMachine;
 using Memory = ControllerMemoryAccess;
@@ -291,7 +289,3 @@ TEST(a_lost_pressure_slows_it) {
   const double made = slowed.outputs.status.progress.share - before;
   assert_near(made / share_of_a_second(whole), slowed.profile.safety.degraded_speed_ratio, 0.1);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/task_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using test::kCycle_s;
 using test::servo_at_rest;
@@ -243,7 +241,3 @@ TEST(the_cap_looks_where_what_is_under_way_will_have_come) {
   servo.drive[kSwing].under_way_m = 0.06 * profile().swing.lever_m;
   assert_near(cap().factor, 0.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

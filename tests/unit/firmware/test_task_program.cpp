@@ -8,8 +8,6 @@
 #include "tests/unit/firmware/drive_replay.hpp"
 #include "tests/unit/rounds.hpp"
 
-namespace {
-
 using namespace graben;
 using test::kCycle_s;
 
@@ -308,7 +306,3 @@ TEST(random_programs_stay_inside_or_say_where_not) {
   assert_true(ended[0] > kMany && ended[3] > kMany && ended[4] > kMany &&
               ended[5] > kPrograms / 150);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 
-namespace {
-
 using namespace graben;
 using test::kCycle_s;
 
@@ -340,7 +338,3 @@ TEST(no_program_is_done) {
   assert_int_equal(advance(none, state, 1.0).phase, TaskPhase::kDone);
   assert_int_equal(TaskState{}.phase, TaskPhase::kDone);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/tilting_dozer.hpp"
 
-namespace {
-
 using namespace graben;
 using test::CrossDesign;
 
@@ -168,7 +166,3 @@ TEST(the_speed_leaves_the_tilt_its_flow) {
   assert_true(slope_mps > 0.9 * least_mps && slope_mps < 1.1 * most_mps);
   assert_near(limit_mps(0.8) / slope_mps, 0.5, 0.1);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 #include "tests/unit/firmware/grading_dozer.hpp"
 #include "tests/unit/firmware/tilting_dozer.hpp"
 
-namespace {
-
 using namespace graben;
 using test::CrossDesign;
 using test::Grading;
@@ -96,7 +94,3 @@ TEST(a_machine_without_tilt_needs_none_of_it) {
   assert_near(grading.outputs.tilt_duty_ratio, 0.0, 0.0);
   assert_int_equal(grading.outputs.status.mode, EcuMode::kActive);
 }
-
-}  // namespace
-
-RUN_TESTS()

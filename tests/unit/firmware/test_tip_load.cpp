@@ -8,8 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/load_world.hpp"
 
-namespace {
-
 using namespace graben;
 using test::LoadWorld;
 
@@ -262,7 +260,3 @@ TEST(swing) {
     assert_near(turning.of_link(0, i), arm_m.y() * outwards_n, 1e-9);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kPeriod_s = 0.0625;
@@ -224,7 +222,3 @@ TEST(sides_may_be_further_apart_where_the_track_bends) {
     }
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

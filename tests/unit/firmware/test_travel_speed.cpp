@@ -4,8 +4,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kEngine_radps = 157.08;
@@ -156,7 +154,3 @@ TEST(constant_asks_neither_blade_nor_ground) {
   }
   assert_near(state.speed_mps, 1.6, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

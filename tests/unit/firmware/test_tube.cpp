@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr double kTube_m = 0.25;
@@ -71,7 +69,3 @@ TEST(below_a_surface_is_never_far) {
   assert_int_equal(above(state, 0.251), Fault::kPathLeft);
   assert_int_equal(above(state, kNone), Fault::kPathLeft);
 }
-
-}  // namespace
-
-RUN_TESTS()

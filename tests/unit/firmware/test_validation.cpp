@@ -8,8 +8,6 @@
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using test::complete_inputs;
 using test::validate;
@@ -332,7 +330,3 @@ TEST(strokes_from_imus_stand_as_measured_ones) {
   strokes_m[kArm].validity = Validity::kNotAvailable;
   assert_int_equal(valid_with(strokes_m).fault, Fault::kStrokeMissing);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -11,8 +11,6 @@
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using test::complete_inputs;
 using test::validate;
@@ -352,7 +350,3 @@ TEST(outside_motion_nothing_jumps) {
   assert_true(stroke.frame(1.0, !kMoving).faults.empty());
   assert_near(stroke.valid.drive[kBoom].stroke_m, 1.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

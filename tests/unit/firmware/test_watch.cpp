@@ -5,8 +5,6 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/watched_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -298,7 +296,3 @@ TEST(what_its_load_lets_go_is_not_the_wrong_way) {
     assert_int_equal(wrong, before_pa < 20e6);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

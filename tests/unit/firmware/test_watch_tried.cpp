@@ -5,8 +5,6 @@
 
 #include "tests/unit/firmware/watched_machine.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -78,7 +76,3 @@ TEST(nothing_is_learnt_of_duties_that_are_tried) {
     assert_true(learnt != tried);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

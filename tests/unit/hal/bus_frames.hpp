@@ -179,3 +179,5 @@ struct Feed {
 };
 
 }  // namespace graben::test
+
+#define TEST_ON_BOTH(name) TEST_OF_EACH(name, Bus, ExcavatorBus, DozerBus)

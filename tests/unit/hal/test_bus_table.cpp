@@ -10,8 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/hal/table_bus.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -267,7 +265,3 @@ TEST(our_commands_from_another_are_a_second_controller) {
   bus.receiver.accept(frame, bus.now);
   assert_true(bus.receiver.message_faults(bus.now).has(Fault::kSecondController));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/hal/table_bus.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -211,7 +209,3 @@ TEST(a_port_lets_heartbeats_and_emergencies_through) {
   }
   assert_int_equal(found, 2);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr TimeUs kCycleUs = 10'000;
@@ -204,7 +202,3 @@ TEST(stamps_go_round_without_0) {
   }
   assert_int_equal(challenge.next_stamp(), 1);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -9,8 +9,6 @@
 #include "firmware/safety/fault_table.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr TimeUs kCallUs = 10'000;
@@ -238,7 +236,3 @@ TEST(a_clock_that_goes_back_does_not_silence) {
   bus.now = kSecondUs;
   assert_true(bus.call(set_of({Fault::kBusOff})));
 }
-
-}  // namespace
-
-RUN_TESTS()

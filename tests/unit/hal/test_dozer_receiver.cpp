@@ -3,8 +3,6 @@
 
 #include "tests/unit/hal/bus_frames.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 namespace bus = dbc::dozer;
@@ -81,7 +79,3 @@ TEST(another_kinds_task_is_out_of_range) {
   receiver.accept(frame_with<test::DozerCommand>(bus::OperatorCommand::kTask, 0, 4), now + 20'000);
   assert_int_equal(receiver.inputs().driver.task.value, Task::kNone);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "tests/unit/hal/bus_sender.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 namespace bus = dbc::dozer;
@@ -165,7 +163,3 @@ TEST(motion_and_grade) {
   assert_near(sender.sent<bus::EcuMotion>().speed_limit_mps.value, 6.4, 1e-12);
   assert_int_equal(sender.sent<bus::EcuGrade>().grade_error_m.state, RawState::kError);
 }
-
-}  // namespace
-
-RUN_TESTS()

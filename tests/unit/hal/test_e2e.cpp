@@ -5,8 +5,6 @@
 
 #include "tests/unit/hal/e2e_link.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -352,7 +350,3 @@ TEST(crc_fits_its_own_data_id) {
   assert_int_equal(e2e_fitting_signature(frame(3)), e2e_signature(kDataId));
   assert_int_not_equal(e2e_signature(kDataId), e2e_signature(kDataId + 1));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -6,8 +6,6 @@
 #include "hal/link/e2e_window.hpp"
 #include "tests/unit/hal/e2e_link.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -93,7 +91,3 @@ TEST(a_replayed_block_is_used_twice_at_most) {
     assert_in_range(interleaved.held, 0, 3);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

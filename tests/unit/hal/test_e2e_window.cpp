@@ -4,8 +4,6 @@
 #include "hal/link/e2e_window.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr TimeUs kCycleUs = 10'000;
@@ -107,7 +105,3 @@ TEST(a_second_without_frames_empties_it) {
   just_in_time.note(E2eMark::kCorrupt);
   assert_int_equal(just_in_time.fault(), Fault::kMessageCorrupt);
 }
-
-}  // namespace
-
-RUN_TESTS()

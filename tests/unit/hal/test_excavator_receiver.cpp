@@ -3,8 +3,6 @@
 
 #include "tests/unit/hal/bus_frames.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 namespace bus = dbc::excavator;
@@ -169,7 +167,3 @@ TEST(another_kinds_task_is_out_of_range) {
   assert_int_equal(receiver.inputs().driver.task.value, Task::kCommission);
   assert_int_equal(receiver.link(bus::OperatorCommand::kId).out_of_range, 1);
 }
-
-}  // namespace
-
-RUN_TESTS()

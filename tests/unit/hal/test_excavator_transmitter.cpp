@@ -4,8 +4,6 @@
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "tests/unit/hal/bus_sender.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 namespace bus = dbc::excavator;
@@ -264,7 +262,3 @@ TEST(motion_and_hydraulics) {
   assert_near(hydraulics.pump2_expected_pressure_pa.value, 30e6, 1e-3);
   assert_near(hydraulics.path_error_m.value, 0.05, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

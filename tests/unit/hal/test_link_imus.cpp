@@ -5,8 +5,6 @@
 #include "hal/buses/excavator_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 namespace bus = dbc::j1939;
 
@@ -178,7 +176,3 @@ TEST(filters_let_them_through) {
                                                  0x0CF02AE3, 0x0CF02DE3, 0, 0};
   assert_true(ids == expected);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 TEST(what_passes_and_is_not_sent_is_lag) {
@@ -32,7 +30,3 @@ TEST(the_lag_does_not_overflow) {
   advance(clock, 2000 * kSecondUs, 0);
   assert_int_equal(clock.lag_us, 1000 * kSecondUs);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "tests/unit/hal/bus_frames.hpp"
 #include "tests/unit/hal/seen_inputs.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 namespace bus = dbc::excavator;
@@ -178,7 +176,3 @@ TEST_FOR_EACH(the_newest_of_an_unprotected_surplus_counts, Bus, ExcavatorBus, Do
     assert_true(seen_by(flooded) == seen);
   });
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "tests/unit/hal/bus_frames.hpp"
 #include "tests/unit/hal/seen_inputs.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -282,7 +280,3 @@ TEST(rejected_sum_saturates) {
   counters.wrong_length = 1;
   assert_int_equal(rejected(counters), UINT32_MAX);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -6,8 +6,6 @@
 #include "firmware/safety/fault_table.hpp"
 #include "tests/unit/hal/bus_sender.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -30,6 +28,8 @@ struct Dozer {
   using DM1 = dbc::dozer::DM1;
   static constexpr std::uint8_t kDbcVersion = dbc::dozer::kDbcVersion;
 };
+
+#define TEST_ON_BOTH(name) TEST_OF_EACH(name, Kind, Excavator, Dozer)
 
 template <class Kind>
 using SenderOf = Sender<typename Kind::Transmitter>;
@@ -204,7 +204,3 @@ TEST_FOR_EACH(status_saturates_or_says_error, Kind, Excavator, Dozer) {
   sender.call(kStartUs + 40'000);
   assert_int_equal(sender.template sent<typename Kind::EcuStatus>().cycle_time_us.value, 64255);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/hal/bus_frames.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -138,7 +136,3 @@ TEST(other_ids_are_no_controllers) {
   assert_true(receiver.message_faults(kFirstFrameUs).empty());
   assert_int_equal(receiver.total().wrong_kind, 1);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/hal/table_bus.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -92,7 +90,3 @@ TEST(what_cannot_say_cut_falls_silent) {
   sent.cycle();
   assert_non_null(sent.find(kLevers));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -10,8 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::identify;
 
@@ -78,7 +76,3 @@ TEST(noise_is_told_from_a_slow_change) {
   assert_near(pressure_noise_pa({log}, 1), kNoise_pa, 0.05 * kNoise_pa);
   assert_near(pressure_noise_pa({log}, 0), 0.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

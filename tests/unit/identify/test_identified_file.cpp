@@ -15,8 +15,6 @@
 #include "app/identify/machine/identified_profile.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::identify;
 
@@ -184,7 +182,3 @@ TEST(what_is_no_toml_is_refused) {
   }
   assert_true(refused);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -14,8 +14,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::identify;
 
@@ -121,7 +119,3 @@ TEST(a_log_that_says_nothing_is_refused) {
   }
   assert_true(refused);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -15,8 +15,6 @@
 #include "app/identify/motion_result.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben::identify;
 
 constexpr double kRow_s = 0.05;
@@ -354,7 +352,3 @@ TEST(deviations_that_nothing_gives_are_null) {
               std::string::npos);
   assert_true(text.find("arm: stood throughout") != std::string::npos);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -15,8 +15,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::identify;
 
@@ -198,7 +196,3 @@ TEST(what_is_no_touch_is_named) {
   assert_says(refusal([&] { static_cast<void>(fit_mounting(site.profile, ask)); }),
               "the arm's IMU would be turned by 29 deg");
 }
-
-}  // namespace
-
-RUN_TESTS()

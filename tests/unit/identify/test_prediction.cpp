@@ -16,8 +16,6 @@
 #include "firmware/mcv/evaluation.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::identify;
 
@@ -226,7 +224,3 @@ TEST(what_judges_is_not_fitted) {
   assert_true(is_refused({log_of(false)}));
   assert_true(is_refused({log_of(true), log_of(false)}));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -12,8 +12,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-namespace {
-
 using namespace graben;
 using test::has;
 using test::refusal_of;
@@ -324,7 +322,3 @@ TEST(a_profile_of_another_bus_is_another) {
   assert_true(hash_on(bus) == hash_on("# a comment\n" + bus));
   assert_true(hash_on(bus) != hash_on(with(bus, "timeout = 0.035", "timeout = 0.030")));
 }
-
-}  // namespace
-
-RUN_TESTS()

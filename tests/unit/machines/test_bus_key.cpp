@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using machines::KnownBus;
 using Errors = std::vector<std::string>;
@@ -137,7 +135,3 @@ TEST(what_cannot_be_made_safe_is_refused) {
       "stand_in = {spool_feedback = \"command\", pressures = \"worst_load\"}",
       "stand_in.pressures", "neither spools nor pressures are measured");
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 const machines::SimulatedDozer& machine() {
@@ -242,7 +240,3 @@ TEST(draws_are_of_one_machine) {
   }
   assert_near(machine().plant.machine.body.mass_kg, 8900.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using machines::arranged;
 using machines::DozerScenario;
@@ -101,7 +99,3 @@ TEST(errors_draw_the_machine_only) {
   assert_near(machine.profile.body.mass_kg, 8900.0, 0.0);
   assert_near(machine.profile.implement.efficiency, 0.94, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -10,8 +10,6 @@
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using machines::arranged;
 using machines::Errors;
@@ -303,7 +301,3 @@ TEST(what_is_told_goes_before_what_is_drawn) {
     }
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -11,8 +11,6 @@
 #include "app/machines/simulated/machine_truth.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using machines::hidden_machine;
 using machines::MachineTruth;
@@ -225,7 +223,3 @@ TEST(truth_is_what_the_plant_does) {
   assert_true(truth_of(nominal().plant).drive[kBoom].extend.softness_ratio == 0.0);
   assert_near(truth_of(nominal().plant).drive[kBoom].retract.edge_ratio, 0.2, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 const machines::SimulatedExcavator& machine() {
@@ -103,7 +101,3 @@ TEST(a_missing_profile_says_where_it_looked) {
     assert_non_null(std::strstr(error.what(), "no_such_machine"));
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

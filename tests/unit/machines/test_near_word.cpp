@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using graben::machines::near_word;
 using graben::machines::near_word_hint;
 
@@ -30,7 +28,3 @@ TEST(test_nothing_is_near) {
   }
   assert_string_equal(near_word("dig", {}).c_str(), "");
 }
-
-}  // namespace
-
-RUN_TESTS()

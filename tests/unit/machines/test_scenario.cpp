@@ -12,8 +12,6 @@
 #include "firmware/mcv/mcv_machine.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using machines::arranged;
 using machines::Errors;
@@ -228,7 +226,3 @@ TEST(soil_is_laid_and_drawn) {
     assert_non_null(std::strstr(error.what(), "sand, loam, clay, stones"));
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -14,8 +14,6 @@
 #include "app/machines/simulated/hidden.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using machines::SimulatedChoice;
 using machines::SimulatedExcavator;
@@ -249,7 +247,3 @@ TEST(the_found_machine_is_as_measured) {
   }
   assert_near(found.plant.link[kArm].mass_kg, nominal().plant.link[kArm].mass_kg, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

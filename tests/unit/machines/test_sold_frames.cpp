@@ -7,8 +7,6 @@
 #include "hal/buses/excavator_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr TimeUs kNow = 5 * kSecondUs;
@@ -224,7 +222,3 @@ TEST(a_retrofit_is_complete) {
   bus.pass();
   assert_true(bus.receiver.inputs().axis[0].cap_pressure_pa.validity == Validity::kError);
 }
-
-}  // namespace
-
-RUN_TESTS()

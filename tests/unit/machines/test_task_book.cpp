@@ -6,8 +6,6 @@
 #include "app/machines/excavator_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 const ExcavatorProfile& profile() {
@@ -72,7 +70,3 @@ TEST(five_are_too_many) {
   assert_int_equal(book({"flatten", "flatten", "flatten", "flatten"}).count, 4);
   assert_says(errors_of({"flatten", "flatten", "flatten", "flatten", "flatten"}), "at most 4");
 }
-
-}  // namespace
-
-RUN_TESTS()

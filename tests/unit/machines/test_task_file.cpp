@@ -6,8 +6,6 @@
 #include "app/machines/task_text.hpp"
 #include "tests/unit/machines/written_task.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 
@@ -294,7 +292,3 @@ TEST(a_missing_task_says_where_it_looked) {
     assert_says(error.what(), "task 'no_such_task': there is no such file");
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

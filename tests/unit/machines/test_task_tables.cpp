@@ -3,8 +3,6 @@
 
 #include "tests/unit/machines/written_task.hpp"
 
-namespace {
-
 using namespace graben::test;
 
 /// One error, and no followers of what it has left unread.
@@ -32,7 +30,3 @@ TEST(an_area_s_errors_name_its_table) {
   assert_says(with("far = 4.0, depth = 0.2"), "area.near (line 1): 4.4 m; allowed: less than far");
   assert_says(with("far = 6.6, depth = 5.0"), "area (line 1): step 0 (dig): out of the reach");
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -9,8 +9,6 @@
 #include "app/machines/excavator_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using machines::tuned_control;
 using machines::TunedControl;
@@ -91,7 +89,3 @@ TEST(what_is_later_is_calmer) {
   assert_near(last.pressure_filter_s, 0.4, 1e-12);
   assert_near(last.servo_gain_ps, 0.5 / (0.699 + 1.6 / (kTwoPi * 0.87 * 2.5)), 1e-3);
 }
-
-}  // namespace
-
-RUN_TESTS()

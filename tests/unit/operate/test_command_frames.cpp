@@ -8,8 +8,6 @@
 #include "hal/link/message_rules.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using dbc::RawState;
 using operate::CommandFrames;
@@ -103,7 +101,3 @@ TEST(last_words_fit_and_change_nothing) {
   command.take(last[0], now);
   assert_int_equal(command.accepted, 4);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -12,8 +12,6 @@
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/operate/commission_bench.hpp"
 
-namespace {
-
 using namespace graben;
 using commission::SequenceOptions;
 using commission::StepKind;
@@ -367,7 +365,3 @@ TEST(the_operator_lets_go_in_every_step) {
   assert_near(results[0].duty, sound[0].duty, 0.06);
   assert_near(results[1].duty, sound[1].duty, 0.06);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -12,8 +12,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::commission;
 namespace fs = std::filesystem;
@@ -160,7 +158,3 @@ TEST(what_goes_wrong_has_a_word) {
   const auto other = look_for_wrong_way(ramp, begin, {0.7, 0.68, 0.5}, {0.0, -0.05, 0.0});
   assert_true(other && other->seen == kArm);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using operate::Deadman;
 using operate::Trouble;
@@ -79,7 +77,3 @@ TEST(a_release_during_trouble_is_none) {
     assert_true(press(deadman));
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "hal/link/dm1.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using dbc::RawState;
 using operate::EcuListener;
@@ -131,7 +129,3 @@ TEST(trouble_codes_are_kept_while_they_are_repeated) {
   assert_int_equal(ecu.faults(1600 * kMillisecondUs).size(), 1);
   assert_true(ecu.faults(1600 * kMillisecondUs)[0] == Fault::kStrokeMissing);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -9,8 +9,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using operate::Hands;
 using operate::hands_of;
@@ -143,7 +141,3 @@ TEST(presses_count_once) {
   assert_int_equal(pressed(EV_ABS, ABS_HAT0Y, 0).speed_steps, 0);
   assert_int_equal(pressed(EV_ABS, ABS_HAT0X, 1).speed_steps, 0);
 }
-
-}  // namespace
-
-RUN_TESTS()

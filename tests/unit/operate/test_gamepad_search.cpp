@@ -9,8 +9,6 @@
 #include "app/operate/gamepad.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using operate::find_gamepads;
 using operate::Gamepad;
@@ -82,7 +80,3 @@ TEST(a_path_without_a_device_is_refused) {
   check_has(refusal("/nowhere/event3"), "/nowhere/event3: No such file");
   check_has(refusal("/dev/null"), "/dev/null: no input device of the kernel");
 }
-
-}  // namespace
-
-RUN_TESTS()

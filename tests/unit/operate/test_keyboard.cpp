@@ -7,8 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using operate::Hands;
 using operate::KeyHold;
@@ -94,7 +92,3 @@ TEST(commands_do_not_hold) {
   // Twice is back again.
   assert_false(keys.step("mm", kCycle_us).changes_mode);
 }
-
-}  // namespace
-
-RUN_TESTS()

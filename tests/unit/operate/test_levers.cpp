@@ -7,8 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using operate::Axes;
 using operate::axes_of;
@@ -113,7 +111,3 @@ TEST(each_way_of_a_lever_ends_rest) {
     assert_false(levers.are_at_rest());
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -10,8 +10,6 @@
 #include "app/runs/code_text.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using dbc::RawState;
 using operate::EcuListener;
@@ -142,7 +140,3 @@ TEST(axes_have_the_tasks_names) {
   view.chosen_task = Task::kCoordinated;
   check_has(text_of(view), "up +50 %, forward -25 %, attitude +0 %, swing +100 %");
 }
-
-}  // namespace
-
-RUN_TESTS()

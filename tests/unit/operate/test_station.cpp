@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using operate::Hands;
 using operate::Request;
@@ -146,7 +144,3 @@ TEST(speed_goes_by_tenths_and_stops_at_its_ends) {
   faster.speed_steps = -20;
   assert_near(station.step(faster, kReady).speed_override_ratio, 0.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -15,8 +15,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using operate::RawTerminal;
 
@@ -116,7 +114,3 @@ TEST(without_a_terminal_it_is_refused) {
   const int status = child.status();
   assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 3);
 }
-
-}  // namespace
-
-RUN_TESTS()

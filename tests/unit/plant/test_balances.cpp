@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -202,7 +200,3 @@ TEST(gravity_by_hand) {
   assert_near(-arm_moment / arm_lever, 5.17e3, 0.01e3);
   assert_near(-bucket_moment / bucket_lever, 18.5e3, 0.05e3);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-namespace {
-
 using namespace graben;
 
 const DozerBody& body() { return test::dozer().profile.body; }
@@ -106,7 +104,3 @@ TEST(it_does_not_run_away) {
   assert_true(std::abs(on.motion.climb_mps) <= 3.0);
   assert_true(std::isfinite(on.motion.centre_m));
 }
-
-}  // namespace
-
-RUN_TESTS()

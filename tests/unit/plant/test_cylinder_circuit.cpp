@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/cylinder_circuit.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -174,7 +172,3 @@ TEST(oil_is_conserved_through_voids) {
   assert_true(drained > 2e-3);
   assert_near(held() - before, pumped - drained, 1e-12);
 }
-
-}  // namespace
-
-RUN_TESTS()

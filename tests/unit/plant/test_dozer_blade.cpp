@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -241,7 +239,3 @@ TEST(a_pilot_valve_can_be_broken) {
   plant.advance(kSecondUs);
   assert_near(plant.spool_travel_ratio(), 0.3, 1e-6);
 }
-
-}  // namespace
-
-RUN_TESTS()

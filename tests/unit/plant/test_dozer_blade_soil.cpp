@@ -6,8 +6,6 @@
 #include "app/plant/dozer_blade_soil.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using plant::BladeSoil;
 using plant::Terrain;
@@ -127,7 +125,3 @@ TEST(a_drawn_soil_is_within_forty_percent) {
   }
   assert_true(refused);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -10,8 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -281,7 +279,3 @@ TEST(without_the_brake_it_creeps) {
   assert_true(parked.moved_m > 0.05);
   assert_true(parked.speed_mps > 0.005 && parked.speed_mps < 0.1);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "app/plant/dozer_faults.hpp"
 #include "tests/unit/plant/fixture/dozer_rig.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
@@ -250,7 +248,3 @@ TEST(noise_comes_from_the_seed) {
   }
   assert_true(differs);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben::plant;
 
 constexpr double kCell = 0.02;
@@ -157,7 +155,3 @@ TEST(a_held_track_holds) {
   const double u = sheared / 0.02;
   assert_near(force, 0.8 * 40e3 * (1.0 - (1.0 - std::exp(-u)) / u), 1e-6);
 }
-
-}  // namespace
-
-RUN_TESTS()

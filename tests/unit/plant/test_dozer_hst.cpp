@@ -8,8 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -214,7 +212,3 @@ TEST(a_servo_can_be_broken) {
   run(path, 2.0, 0.0);
   assert_near(path.motor().ratio(), 0.8, 1e-6);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/plant/fixture/dozer_rig.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
@@ -335,7 +333,3 @@ TEST(the_operator_asks_for_grading) {
   rig.cycles(10);
   assert_int_equal(rig.seen[dozer_bus::OperatorCommand::kId].size(), sent);
 }
-
-}  // namespace
-
-RUN_TESTS()

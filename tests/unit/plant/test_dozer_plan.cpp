@@ -8,8 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -117,7 +115,3 @@ TEST(its_edge_cuts_lines_beside_the_track) {
   const CrossGround& ground = *plant.cross_ground();
   assert_true(ground.line[CrossGround::kLeftTrack].height_m(middle_m.x() - 0.3) < -0.005);
 }
-
-}  // namespace
-
-RUN_TESTS()

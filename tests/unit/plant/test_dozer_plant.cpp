@@ -11,8 +11,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -313,7 +311,3 @@ TEST(the_height_bias_is_constant_and_within) {
   }
   assert_true(least < -0.0015 && most > 0.0015);
 }
-
-}  // namespace
-
-RUN_TESTS()

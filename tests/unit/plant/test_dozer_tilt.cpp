@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -107,7 +105,3 @@ TEST(one_without_tilt_has_none) {
   assert_false(plant.tilt().has_value());
   assert_false(plant.cross_ground().has_value());
 }
-
-}  // namespace
-
-RUN_TESTS()

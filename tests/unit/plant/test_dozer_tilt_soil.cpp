@@ -8,8 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -164,7 +162,3 @@ TEST(a_stone_lies_on_one_side) {
   assert_true(std::abs(against_n(1.0) - against_n(-1.0)) > 100.0);
   assert_near(0.5 * (against_n(0.3) + against_n(-0.3)), middle_n, 1e-6 * middle_n);
 }
-
-}  // namespace
-
-RUN_TESTS()

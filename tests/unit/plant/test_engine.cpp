@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/node_rig.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
@@ -115,7 +113,3 @@ TEST(the_bus_is_told_the_speed_that_it_has) {
   assert_near(last<bus::EEC1>(rig).engine_speed_radps.value, 0.5 * told_radps,
               2.0 * kResolution_radps);
 }
-
-}  // namespace
-
-RUN_TESTS()

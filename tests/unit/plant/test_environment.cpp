@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -210,7 +208,3 @@ TEST(sensors_err_within_their_bounds) {
   assert_near(std::sqrt(noise / kReadings - bias_pa * bias_pa),
               errors.pressure_noise_ratio * errors.pressure_range_pa, 2e4);
 }
-
-}  // namespace
-
-RUN_TESTS()

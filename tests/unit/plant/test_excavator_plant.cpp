@@ -13,8 +13,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -344,7 +342,3 @@ TEST(one_pump_feeds_all) {
     assert_true(plant.strokes_m()[i] > before[i] + 0.02);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -12,8 +12,6 @@
 #include "tests/unit/plant/fixture/curves.hpp"
 #include "tests/unit/plant/fixture/cylinder_circuit.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -199,7 +197,3 @@ TEST(counting_oil_as_hopsan_leaves_no_difference) {
     }
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

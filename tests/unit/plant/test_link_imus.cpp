@@ -12,8 +12,6 @@
 #include "tests/unit/plant/fixture/bus_rig.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
@@ -237,7 +235,3 @@ TEST(unknown_until_it_is_known) {
   }
   assert_in_range(cycles, 5, 100);
 }
-
-}  // namespace
-
-RUN_TESTS()

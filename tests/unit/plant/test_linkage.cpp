@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -279,7 +277,3 @@ TEST(friction_brakes_a_piston_to_rest) {
   }
   assert_near(energy, 0.0, 1e-9);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -16,8 +16,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -154,7 +152,3 @@ TEST(stiff_oil_of_the_paper) {
   check_modes({1.0e10, kMiddle, "middle", 8.3, 0.3, 14.8, 0.5});
   check_modes({1.0e10, kCloseIn, "close in", 9.1, 0.3, 14.1, 0.5});
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -6,8 +6,6 @@
 #include "app/plant/valve_section.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben::plant;
 
 constexpr double kK = 4e-6;          // m^3/(s sqrt(Pa))
@@ -140,7 +138,3 @@ TEST(gallery_draws_from_tank_below_ambient) {
   assert_near(flow.gallery_pa, -std::pow(flow.out_m3ps / 1.2e-6, 2), 1e-6);
   assert_near(flow.regenerated_m3ps, 0.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "app/plant/excavator_faults.hpp"
 #include "tests/unit/plant/fixture/node_rig.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
@@ -300,7 +298,3 @@ TEST(the_stream_can_be_late) {
   assert_int_equal(frames.size(), 16);  // what was under way is lost
   assert_int_equal(counter_of(frames[15]), 35 % 15);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/node_rig.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 namespace bus = dbc::excavator;
@@ -332,7 +330,3 @@ TEST(hands_are_sent_where_they_are) {
   }
   check_protection<bus::CommissionWindow>(rig);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "app/plant/excavator_plant.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -112,7 +110,3 @@ TEST(a_regulator_takes_its_time) {
     assert_true(plant.swash_ratios()[1] > 0.95);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

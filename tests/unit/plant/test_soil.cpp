@@ -8,8 +8,6 @@
 #include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 using machines::soil_kind;
@@ -255,7 +253,3 @@ TEST(the_floor_bears) {
                          bearing_pa(profile.soil, profile.bucket.floor_m / 5.0, 0.0, kGravity);
   assert_true(most_n > 0.8 * bears_n && most_n < 1.3 * bears_n);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -209,7 +207,3 @@ TEST(the_plants_exponent_goes_before_the_designs) {
   assert_near(profile.section(kArm).spool.retract.opening_exponent, 1.2, 0.0);
   assert_true(profile.section(kArm).spool.extend.opening_exponent < 3.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

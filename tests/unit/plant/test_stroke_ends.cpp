@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/cylinder_circuit.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -150,7 +148,3 @@ TEST(cushions_end_the_blow) {
     }
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -11,8 +11,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 
@@ -318,7 +316,3 @@ TEST(without_the_drive_the_swing_is_held) {
               0.0);
   assert_near(told.swing_pressures_pa()[0] + told.swing_pressures_pa()[1], 0.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "tests/unit/plant/fixture/node_rig.hpp"
 #include "tests/unit/plant/fixture/swing_rig.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
@@ -230,7 +228,3 @@ TEST(operator_says_the_task_number) {
   assert_int_equal(last<bus::OperatorCommand>(rig).task.value,
                    bus::OperatorCommand::Task::kProgram);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -4,8 +4,6 @@
 #include "app/plant/wave_volume.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben::plant;
 
 constexpr double kBulkModulus = 1.2e9;
@@ -118,7 +116,3 @@ TEST(void_is_refilled_before_pressure_returns) {
   assert_near(steps, (1e-6 - stretched) / (2e-4 * kStep), 1.0);
   assert_near(volume.content_m3() - kVolume, -1e-6 + steps * 2e-4 * kStep, 1e-15);
 }
-
-}  // namespace
-
-RUN_TESTS()

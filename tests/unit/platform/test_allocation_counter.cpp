@@ -9,8 +9,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 /// Where the compiler cannot see that memory is not needed, and leave it out.
@@ -98,7 +96,3 @@ TEST(nothing_is_counted_for_nothing) {
   std::snprintf(text, sizeof text, "%d", 5);
   assert_int_equal(allocation_count() - before, 0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -11,8 +11,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 /// Tests run beside each other, in one network namespace.
@@ -34,7 +32,3 @@ TEST(a_name_that_is_too_long_is_told) {
   const BusLock lock(std::string(200, 'x'));
   assert_non_null(std::strstr(lock.error().c_str(), "too long"));
 }
-
-}  // namespace
-
-RUN_TESTS()

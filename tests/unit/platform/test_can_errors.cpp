@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using State = CanPortState;
 
@@ -115,7 +113,3 @@ TEST(the_classes_asked_for_are_those_understood) {
   }
   assert_int_equal(kCanErrorClasses & (CAN_ERR_LOSTARB | CAN_ERR_BUSERROR), 0);
 }
-
-}  // namespace
-
-RUN_TESTS()

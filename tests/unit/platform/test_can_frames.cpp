@@ -6,8 +6,6 @@
 #include "platform/linux/can_frames.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 can_frame kernel_frame(canid_t id, std::uint8_t length) {
@@ -174,7 +172,3 @@ TEST(slewing_is_no_step) {
     assert_int_equal(stamp.monotonic_us(kWallUs + 5'000 + slew_us), 5'005'000);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -16,8 +16,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using Buffer = std::vector<unsigned char>;
 
@@ -172,7 +170,3 @@ TEST(an_interface_that_is_not_there) {
   assert_false(query_link(0x7FFFFFF0, link, error));
   assert_string_equal(error.c_str(), "state of the interface: No such device");
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 CanFrame frame(std::uint32_t id) {
@@ -114,7 +112,3 @@ TEST(one_that_does_not_open_is_told) {
   assert_false(two.group.open());
   assert_int_equal(two.own[1]->state(), CanPortState::kActive);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -14,8 +14,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 constexpr std::int64_t kPeriodNs = 10'000'000;
@@ -193,7 +191,3 @@ TEST(a_signal_does_not_end_the_sleep) {
   assert_true(cycle.now_us >= before_us + 20'000);
   assert_true(cycle.late_us >= 0);
 }
-
-}  // namespace
-
-RUN_TESTS()

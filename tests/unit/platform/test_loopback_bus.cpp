@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 CanFrame frame(std::uint32_t id) {
@@ -197,7 +195,3 @@ TEST(babble_keeps_lower_priority_off) {
   bus.set_babble(std::nullopt);
   assert_true(a.send(frame(0x0CFF3001)));
 }
-
-}  // namespace
-
-RUN_TESTS()

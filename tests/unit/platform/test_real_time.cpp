@@ -25,8 +25,6 @@ constexpr bool kSanitized = __has_feature(address_sanitizer);
 constexpr bool kSanitized = false;
 #endif
 
-namespace {
-
 using namespace graben;
 
 enum Outcome { kGood = 0, kWrong = 1, kCannotTry = 2 };
@@ -240,7 +238,3 @@ TEST(an_error_text_is_cut_not_overrun) {
   assert_string_equal(error_words(ENETDOWN), "Network is down");
   assert_string_equal(error_words(99999), "unknown error");
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -16,8 +16,6 @@
 #include "platform/linux/process.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 /// The manager's end, bound to a path or, after '@', to an abstract name.
@@ -195,6 +193,4 @@ TEST(a_stop_signal_is_caught_once) {
   }
 }
 
-}  // namespace
-
-RUN_TESTS_WITHIN(make_folder, remove_folder)
+TESTS_WITHIN(make_folder, remove_folder)

@@ -14,14 +14,10 @@
 #include "platform/linux/cyclic_clock.hpp"
 #include "tests/unit/platform/socketcan_rig.hpp"
 
-namespace {
-
 int g_send_errno = 0;
 int g_receive_errno = 0;
 std::size_t g_receive_calls = 0;
 std::int64_t g_wall_clock_ahead_us = 0;
-
-}  // namespace
 
 // In the C library's place.
 extern "C" ssize_t send(int fd, const void* data, std::size_t length, int flags) {
@@ -50,8 +46,6 @@ extern "C" int clock_gettime(clockid_t clock, timespec* now) noexcept {
   }
   return result;
 }
-
-namespace {
 
 using namespace graben;
 using namespace graben::test;
@@ -271,7 +265,3 @@ TEST(a_cycle_and_an_opening_allocate_nothing) {
   assert_int_equal(count, 5);
   assert_true(sent);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "platform/linux/cyclic_clock.hpp"
 #include "tests/unit/platform/socketcan_rig.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::test;
 using State = CanPortState;
@@ -189,7 +187,3 @@ TEST(frames_of_another_size_are_counted_and_dropped) {
   assert_int_equal(rig.port.counters().wrong_frames, 2);
   assert_int_equal(rig.frames[0].id, 5);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -20,8 +20,6 @@
 #include "app/scope/page/scope_page.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 namespace fs = std::filesystem;
 using graben::reports::packed;
 using graben::reports::packed_file;
@@ -224,6 +222,4 @@ TEST(failed_write_leaves_old_report) {
   assert_int_equal(files_in(own), 1);
 }
 
-}  // namespace
-
-RUN_TESTS_WITHIN(make_folder, remove_folder)
+TESTS_WITHIN(make_folder, remove_folder)

@@ -3,8 +3,6 @@
 
 #include "tests/unit/runs/hands_rig.hpp"
 
-namespace {
-
 using namespace graben;
 using test::HandsRig;
 
@@ -177,7 +175,3 @@ TEST(the_deadman_is_neutral_at_once) {
     assert_int_equal(rig.status().fault, Fault::kNone);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

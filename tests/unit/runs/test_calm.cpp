@@ -10,8 +10,6 @@
 #include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::runs;
 
@@ -172,7 +170,3 @@ TEST(nothing_is_late) {
   }
   assert_true(slow[500] > slow[499] && slow[500] > slow[501]);
 }
-
-}  // namespace
-
-RUN_TESTS()

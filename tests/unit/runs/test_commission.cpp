@@ -5,8 +5,6 @@
 
 #include "tests/unit/runs/hands_rig.hpp"
 
-namespace {
-
 using namespace graben;
 using test::HandsRig;
 
@@ -272,7 +270,3 @@ TEST(too_fast_for_its_window) {
   assert_true(rig.try_duty(kArm, -0.7, 4.0)[kArm] < 0.05);
   rig.expect_stop({Fault::kCommissionBound}, [] {});
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -10,8 +10,6 @@
 #include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::runs;
 
@@ -176,7 +174,3 @@ TEST(what_has_not_arrived_is_told) {
   summary = summarise(program, result);
   assert_true(!summary.steps[0].arrived && summary.steps[1].arrived);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -14,8 +14,6 @@
 #include "app/runs/grade_run.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::runs;
 
@@ -128,7 +126,3 @@ TEST(a_campaign_tells_the_bad_end) {
   assert_non_null(strstr(table.c_str(), "    50.000    95.000   100.000 mm\n"));
   assert_non_null(strstr(table.c_str(), "     0.500     0.050     0.010 (p5, min)\n"));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "app/runs/scenarios.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::runs;
 
@@ -107,7 +105,3 @@ TEST(a_task_runs_on_what_is_told) {
   dig.errors = "kim";
   assert_near(arranged(nominal, dig).plant.bulk_modulus_pa, nominal.plant.bulk_modulus_pa, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "app/runs/grade_run.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using runs::GradeResult;
 using runs::GradeSample;
@@ -158,7 +156,3 @@ TEST(calm_is_of_the_time_over_the_grade) {
   assert_near(summary.spool_travel_ps, 8.0 / 3.98, 1e-9);
   assert_near(summary.edge_jerk_rms_mps3, 2.0, 1e-5);
 }
-
-}  // namespace
-
-RUN_TESTS()

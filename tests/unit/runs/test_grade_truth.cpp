@@ -8,8 +8,6 @@
 #include "app/machines/simulated/simulated_dozer.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using runs::BodyPose;
 using runs::BodyRates;
@@ -102,7 +100,3 @@ TEST(available_flow) {
   assert_near(runs::available_flow_m3ps(profile(), 104.72) * 6e4, 56.4, 0.01);
   assert_near(runs::available_flow_m3ps(profile(), 230.38) * 6e4, 120.0, 1e-9);
 }
-
-}  // namespace
-
-RUN_TESTS()

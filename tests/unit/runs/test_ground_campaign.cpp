@@ -7,8 +7,6 @@
 #include "app/runs/ground_campaign.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 auto of(const runs::GroundCell& cell) {
@@ -37,7 +35,3 @@ TEST(the_soil_changes_first_and_the_engine_last) {
   assert_true(of(runs::ground_draw(41).cell) == std::make_tuple("sand", 0U, 1500.0));
   assert_true(of(runs::ground_draw(120).cell) == std::make_tuple("stones", 9U, 2000.0));
 }
-
-}  // namespace
-
-RUN_TESTS()

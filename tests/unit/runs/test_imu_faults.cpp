@@ -10,8 +10,6 @@
 #include "app/runs/scenarios.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using Rates = dbc::j1939::ARI;
 using Forces = dbc::j1939::ACS;
@@ -152,7 +150,3 @@ TEST(a_bracket_turns) {
   });
   static_cast<void>(dig.stops_within(1000));
 }
-
-}  // namespace
-
-RUN_TESTS()

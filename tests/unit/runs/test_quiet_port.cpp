@@ -6,8 +6,6 @@
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 TEST(loses_what_is_sent_while_quiet_alone) {
@@ -33,7 +31,3 @@ TEST(loses_what_is_sent_while_quiet_alone) {
   assert_true(port.send(frame));
   assert_int_equal(other.receive(&heard, 1), 1);
 }
-
-}  // namespace
-
-RUN_TESTS()

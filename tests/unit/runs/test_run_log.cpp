@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-namespace {
-
 using namespace graben;
 
 /// A controller's word of its path or grade, then its status.
@@ -27,7 +25,3 @@ TEST(the_controller_tells_the_kind) {
   assert_true(dozer.is_dozer);
   assert_int_equal(dozer.status_s.size(), 1);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "can_dbc/generated/j1939_dbc.hpp"
 #include "tests/unit/runs/machine_on_bus.hpp"
 
-namespace {
-
 using namespace graben;
 using test::kCycle_ms;
 
@@ -128,7 +126,3 @@ TEST(two_sensors_of_one_address) {
   }
   assert_int_equal(m.status().mode, EcuMode::kFault);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -9,8 +9,6 @@
 #include "app/runs/code_text.hpp"
 #include "tests/unit/runs/machine_on_bus.hpp"
 
-namespace {
-
 using namespace graben;
 using test::kCycle_ms;
 
@@ -238,7 +236,3 @@ TEST(a_frame_on_the_other_bus_is_none) {
     assert_int_equal(m.status().fault, Fault::kStrokeMissing);
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using dbc::RawState;
 using dbc::excavator::TaskStatus;
@@ -146,7 +144,3 @@ TEST(what_was_said_fades) {
   static_cast<void>(rig.take(kSecondUs + TaskListener::kHeldFor_us));
   assert_false(rig.listener.step().has_value());
 }
-
-}  // namespace
-
-RUN_TESTS()

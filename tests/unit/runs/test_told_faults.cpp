@@ -12,8 +12,6 @@
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using namespace graben::runs;
 
@@ -115,7 +113,3 @@ TEST(every_name_acts) {
   each_acts(excavator_plant_faults());
   each_acts(dozer_plant_faults());
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -6,8 +6,6 @@
 #include "app/runs/scenarios.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 
 runs::DigSummary dug_without_pressures(double bulk_modulus_gpa) {
@@ -37,7 +35,3 @@ TEST(oil_as_designed_is_followed_as_well) {
   const runs::DigSummary designed = dug_without_pressures(1.4);
   assert_in_range(static_cast<int>(1e4 * designed.max_error_true_m), 30, 180);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 #include "can_dbc/generated/zx200_dbc.hpp"
 #include "tests/unit/runs/machine_on_bus.hpp"
 
-namespace {
-
 using namespace graben;
 namespace zx200 = dbc::zx200;
 
@@ -201,8 +199,6 @@ TEST(another_controller) {
   assert_int_equal(m.status().fault, Fault::kSecondController);
 }
 
-}  // namespace
-
 /// Where its own pilot puts them, and both ends know it.
 TEST(nobody_commands_its_pumps) {
   const machines::SimulatedExcavator on_it = test::on_bus("zx200");
@@ -215,5 +211,3 @@ TEST(nobody_commands_its_pumps) {
   assert_near(on_it.profile.demand_swash.most_ratio, 0.0, 0.0);
   assert_near(on_ours.profile.demand_swash.most_ratio, 1.0, 0.0);
 }
-
-RUN_TESTS()

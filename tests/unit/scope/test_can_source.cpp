@@ -13,8 +13,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using nlohmann::json;
 using scope::CanListener;
@@ -43,13 +41,12 @@ OpenedCanSocket open_pair(const CanSocketConfig& config) {
   return result;
 }
 
-int set_up(void** /*state*/) {
+void set_up() {
   for (const auto& [name, fd] : g_bus) {
     close(fd);
   }
   g_bus.clear();
   g_is_down.clear();
-  return 0;
 }
 
 void from_bus(const std::string& interface, canid_t id, std::uint8_t byte = 0) {
@@ -72,7 +69,8 @@ TimeUs wall_us() {
   return TimeUs{now.tv_sec} * kSecondUs + now.tv_nsec / 1000;
 }
 
-void every_kind_of_frame_is_heard(void**) {
+TEST(every_kind_of_frame_is_heard) {
+  set_up();
   CanListener listener("can7", &open_pair);
   assert_true(listener.open());
   const TimeUs before_us = wall_us();
@@ -94,7 +92,8 @@ void every_kind_of_frame_is_heard(void**) {
   assert_true(listener.is_open());
 }
 
-void what_is_no_frame_is_left_out(void**) {
+TEST(what_is_no_frame_is_left_out) {
+  set_up();
   CanListener listener("can7", &open_pair);
   assert_true(listener.open());
   assert_int_equal(write(g_bus["can7"], "x", 1), 1);
@@ -112,7 +111,8 @@ OpenedCanSocket open_no_socket(const CanSocketConfig& /*config*/) {
   return result;
 }
 
-void an_interface_that_fails_is_not_open_any_more(void**) {
+TEST(an_interface_that_fails_is_not_open_any_more) {
+  set_up();
   CanListener listener("can7", &open_no_socket);
   assert_true(listener.open());
   assert_int_equal(hear(listener).size(), 0);
@@ -121,7 +121,8 @@ void an_interface_that_fails_is_not_open_any_more(void**) {
   assert_int_equal(hear(listener).size(), 0);
 }
 
-void an_interface_that_is_down_can_be_opened_again(void**) {
+TEST(an_interface_that_is_down_can_be_opened_again) {
+  set_up();
   CanListener listener("can7", &open_pair);
   g_is_down["can7"] = true;
   assert_false(listener.open());
@@ -178,7 +179,8 @@ struct Rig {
   }
 };
 
-void frames_become_lines_of_their_interface(void**) {
+TEST(frames_become_lines_of_their_interface) {
+  set_up();
   Rig rig({"can7", "can8"});
   from_bus("can7", 0x18FF2080U | CAN_EFF_FLAG, 0xA5);
   from_bus("can8", CAN_ERR_FLAG | CAN_ERR_CRTL, 1);
@@ -188,7 +190,8 @@ void frames_become_lines_of_their_interface(void**) {
 }
 
 /// Both get frames all the while that they are heard, as many as they take.
-void stamps_rise_over_all_interfaces(void**) {
+TEST(stamps_rise_over_all_interfaces) {
+  set_up();
   Rig rig({"can7", "can8"});
   can_frame frame{};
   std::string text;
@@ -214,7 +217,8 @@ void stamps_rise_over_all_interfaces(void**) {
   assert_true(lines > 1000);
 }
 
-void the_bus_is_told_in_words(void**) {
+TEST(the_bus_is_told_in_words) {
+  set_up();
   g_is_down["can8"] = false;
   Rig rig({"can7", "can8"});
   const json up = rig.state_with("can7: heard; can8: heard");
@@ -227,7 +231,8 @@ void the_bus_is_told_in_words(void**) {
   assert_true(rig.source.control({{"do", "run"}}).has_value());
 }
 
-void a_state_is_told_once(void**) {
+TEST(a_state_is_told_once) {
+  set_up();
   Rig rig({"can7"});
   std::uint64_t seen = 0;
   assert_true(rig.source.state(seen).has_value());
@@ -244,7 +249,8 @@ void assert_no_source(const std::vector<std::string>& interfaces, const char* wh
   assert_string_equal(error.c_str(), why);
 }
 
-void what_cannot_be_heard_is_refused(void**) {
+TEST(what_cannot_be_heard_is_refused) {
+  set_up();
   assert_no_source({}, "no CAN interface is named");
   assert_no_source({"can7", "can8", "can7"}, "CAN interface 'can7' is named twice");
   g_is_down["can9"] = true;
@@ -256,21 +262,4 @@ void what_cannot_be_heard_is_refused(void**) {
   assert_false(down["up"].get<bool>());
   g_is_down["lo"] = false;
   assert_true(rig.state_with("lo: heard")["up"].get<bool>());
-}
-
-}  // namespace
-
-int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test_setup(every_kind_of_frame_is_heard, &set_up),
-      cmocka_unit_test_setup(what_is_no_frame_is_left_out, &set_up),
-      cmocka_unit_test_setup(an_interface_that_fails_is_not_open_any_more, &set_up),
-      cmocka_unit_test_setup(an_interface_that_is_down_can_be_opened_again, &set_up),
-      cmocka_unit_test_setup(frames_become_lines_of_their_interface, &set_up),
-      cmocka_unit_test_setup(stamps_rise_over_all_interfaces, &set_up),
-      cmocka_unit_test_setup(the_bus_is_told_in_words, &set_up),
-      cmocka_unit_test_setup(a_state_is_told_once, &set_up),
-      cmocka_unit_test_setup(what_cannot_be_heard_is_refused, &set_up),
-  };
-  return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -7,8 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using nlohmann::json;
 using scope::Client;
@@ -217,7 +215,3 @@ TEST(answers_that_wait_are_few) {
   assert_refused(rig, "not JSON");
   assert_true(rig.client.may_speak());
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using scope::FrameBlock;
 using scope::FrameFeed;
@@ -182,7 +180,3 @@ TEST(every_frame_is_read_or_counted) {
   producer.join();
   assert_int_equal(read + reader.lost(), 3 * kRounds);
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using graben::scope::is_own_host;
 using graben::scope::is_own_origin;
 
@@ -63,7 +61,3 @@ TEST(own_pages_have_the_same_host_and_port) {
   }
   assert_false(is_own_origin("http://", ""));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -13,8 +13,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
-namespace {
-
 using namespace graben;
 using scope::LogShow;
 using test::TemporaryFile;
@@ -84,7 +82,3 @@ TEST(what_is_no_log_is_refused) {
   assert_refused("/dev/null",
                  "is no regular file; what is sent through it can be written to one first");
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -10,8 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
-namespace {
-
 using namespace graben;
 using nlohmann::json;
 
@@ -334,7 +332,3 @@ TEST(buses_tell_where_links_are) {
   assert_near(arm["scale"].get<double>(), -0.0004, 1e-12);
   assert_error({std::nullopt, {}, "no_such_bus"}, "no_such_bus");
 }
-
-}  // namespace
-
-RUN_TESTS()

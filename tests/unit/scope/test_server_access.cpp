@@ -5,8 +5,6 @@
 #include "tests/unit/scope/server_rig.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
-namespace {
-
 using namespace graben;
 using nlohmann::json;
 using test::ask;
@@ -161,7 +159,3 @@ TEST(other_addresses_are_known_as_such) {
   assert_true(named.port() > 0);
   assert_has(named.url(), ":" + std::to_string(named.port()) + "/");
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -8,8 +8,6 @@
 #include "tests/unit/scope/server_rig.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
-namespace {
-
 using namespace graben;
 using nlohmann::json;
 using test::Milliseconds;
@@ -364,7 +362,3 @@ TEST(it_stops_at_once_with_pages_open) {
   }
   assert_true(least < std::chrono::seconds(1));
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -7,8 +7,6 @@
 
 #include "tests/unit/scope/sim_watch.hpp"
 
-namespace {
-
 using namespace graben;
 using scope::SimReaction;
 using test::json;
@@ -199,7 +197,3 @@ TEST(two_at_once) {
     assert_true(sim.run_to_active(kWorksAgain_s));
   }
 }
-
-}  // namespace
-
-RUN_TESTS()

@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using graben::scope::SimPacer;
 using std::chrono::milliseconds;
 
@@ -55,7 +53,3 @@ TEST(a_faster_pace_does_not_wait_for_the_slow_one) {
   pacer.set_pace(10.0, begin + milliseconds(3));
   assert_true(pacer.next() == begin + milliseconds(4));
 }
-
-}  // namespace
-
-RUN_TESTS()

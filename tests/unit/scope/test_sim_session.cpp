@@ -7,8 +7,6 @@
 
 #include "tests/unit/scope/sim_watch.hpp"
 
-namespace {
-
 using namespace graben;
 using test::json;
 using test::SimWatch;
@@ -238,7 +236,3 @@ TEST(pace_changes_nothing_but_pace) {
   assert_int_equal(one.bus.frames, other.bus.frames);
   assert_near(other.session.pace(), 10.0, 0.0);
 }
-
-}  // namespace
-
-RUN_TESTS()

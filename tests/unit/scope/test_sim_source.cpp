@@ -11,8 +11,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-namespace {
-
 using namespace graben;
 using scope::FrameFeed;
 using Clock = std::chrono::steady_clock;
@@ -147,7 +145,3 @@ TEST(says_what_it_is) {
   assert_true(setup["sim"]["task"] == "grade" && setup["sim"]["faults"].size() > 30);
   assert_string_equal(source->words().c_str(), "simulated grade");
 }
-
-}  // namespace
-
-RUN_TESTS()

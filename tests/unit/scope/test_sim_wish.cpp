@@ -6,8 +6,6 @@
 
 #include "tests/unit/scope/sim_watch.hpp"
 
-namespace {
-
 using namespace graben;
 using test::json;
 using test::options_of;
@@ -144,7 +142,3 @@ TEST(setup_names_its_faults) {
     assert_int_equal(ids.size(), setup["faults"].size());
   }
 }
-
-}  // namespace
-
-RUN_TESTS()
