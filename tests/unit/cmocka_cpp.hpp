@@ -20,6 +20,18 @@ extern "C" {
 #undef fail_msg
 #define fail_msg(...) (print_error(__VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
 
+namespace graben {
+
+/// Does it `count` times.
+template <class Count, class Function>
+void repeat(Count count, const Function& what) {
+  for (Count n = 0; n < count; ++n) {
+    what();
+  }
+}
+
+}  // namespace graben
+
 namespace graben::test {
 
 inline void check_near(double actual, double expected, double tolerance, const char* expression,
@@ -55,6 +67,12 @@ struct Registered {
   const char* file;
   Registered* next = nullptr;
 };
+
+/// A test on an object of its own.
+template <class Object>
+void call(void (*test)(Object)) {
+  test(Object());
+}
 
 template <class Test, class Kind>
 const char* name_of() noexcept {
@@ -117,11 +135,19 @@ inline int run_source(const char* path) {
 
 }  // namespace graben::test
 
-/// TEST(name) { ... }: a test, which is run by being there.
-#define TEST(name)                                                               \
+/// TEST(name) { ... }: a test, which is run by being there. TEST(name, Machine machine) { ... }:
+/// one that begins with a machine of its own.
+#define TEST(...) GRABEN_SECOND_OR(__VA_ARGS__, GRABEN_TEST_WITH, GRABEN_TEST, )(__VA_ARGS__)
+#define GRABEN_SECOND_OR(name, object, which, ...) which
+#define GRABEN_TEST(name)                                                        \
   static void name(void**);                                                      \
   static const graben::test::Registered name##_is_a_test(#name, __FILE__, name); \
   static void name(void**)
+#define GRABEN_TEST_WITH(name, object)                            \
+  static void name(object);                                       \
+  static const graben::test::Registered name##_is_a_test(         \
+      #name, __FILE__, [](void**) { graben::test::call(name); }); \
+  static void name(object)
 
 /// TEST_FOR_EACH(name, Kind, One, Other...) { ... }: a test of each of these types, which its body
 /// knows as Kind.

@@ -30,8 +30,7 @@ TEST(own_messages_have_what_follows_from_their_lines) {
   assert_int_equal(command.lift_duty_ratio.state, RawState::kValid);
 }
 
-TEST(what_is_sent_is_received) {
-  bus::LiftState sent;
+TEST(what_is_sent_is_received, bus::LiftState sent) {
   sent.lift_stroke_m = {0.75, RawState::kValid};
   sent.lift_spool_ratio = {-0.5, RawState::kValid};
   const bus::LiftState received = bus::LiftState::decode(sent.encode());

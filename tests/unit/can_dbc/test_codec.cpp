@@ -65,8 +65,7 @@ TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 98); }
 
 TEST(saturates_and_refuses) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 
-TEST(plain_numbers) {
-  bus::EcuStatus status;
+TEST(plain_numbers, bus::EcuStatus status) {
   status.rejected_frames.value = 100000;
   assert_int_equal(sent(status, bus::EcuStatus::kRejectedFrames), 250);
   status.limit_index.value = 251;

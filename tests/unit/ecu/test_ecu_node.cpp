@@ -51,7 +51,7 @@ struct Dozer {
   }
 };
 
-#define TEST_ON_BOTH(name) TEST_OF_EACH(name, Kind, Excavator, Dozer)
+#define TEST_ON_BOTH_KINDS(name) TEST_OF_EACH(name, Kind, Excavator, Dozer)
 
 constexpr TimeUs kCycleUs = 10'000;
 

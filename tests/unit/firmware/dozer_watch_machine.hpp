@@ -53,9 +53,7 @@ struct Machine {
     return seen;
   }
   const DozerValid& run(int count) {
-    for (int n = 0; n < count; ++n) {
-      step();
-    }
+    repeat(count, [&] { step(); });
     return seen;
   }
   bool frozen = false;  ///< The position is.

@@ -103,9 +103,7 @@ struct Grading {
     return outputs;
   }
   void run(int cycles) {
-    for (int n = 0; n < cycles; ++n) {
-      step(next());
-    }
+    repeat(cycles, [&] { step(next()); });
   }
 
   DozerProfile profile;

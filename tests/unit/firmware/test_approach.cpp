@@ -130,8 +130,7 @@ TEST(where_nothing_leads_there_none_is_found) {
 }
 
 /// A machine that stands beyond a wall beside it may swing back, and nothing else.
-TEST(from_beyond_a_fence_it_only_leads_away) {
-  Fence wall;
+TEST(from_beyond_a_fence_it_only_leads_away, Fence wall) {
   wall.normal = Eigen::Vector3d::UnitY();
   wall.offset_m = 3.0;
   const TaskProgram task = program({wall});

@@ -100,9 +100,7 @@ TEST(what_is_under_way_is_not_asked_for_twice) {
   const BladeKinematics blade(profile().blade);
   const BladeSituation now = driving(1.0, 0.0);
   BladeSituation then = now;
-  for (int n = 0; n < 20; ++n) {
-    then.angle_rad -= (blade.edge_m(then.angle_rad).y() + 0.01) / 1.6;
-  }
+  repeat(20, [&] { then.angle_rad -= (blade.edge_m(then.angle_rad).y() + 0.01) / 1.6; });
   const BladeCommand waits = command(test::level(-0.01), now, then);
   assert_near(waits.velocity_mps, 0.0, 1e-6);
   assert_near(waits.error_m, 0.01, 1e-12);
@@ -125,15 +123,10 @@ TEST(a_lift_is_followed) {
   assert_near(edge_mps, 0.05, 1e-9);
 }
 
-TEST(what_stays_is_integrated_up_to_its_bound) {
-  BladeState state;
-  for (int n = 0; n < 50; ++n) {
-    state = command(test::level(-0.005), driving(2.0, 0.0), state).state;
-  }
+TEST(what_stays_is_integrated_up_to_its_bound, BladeState state) {
+  repeat(50, [&] { state = command(test::level(-0.005), driving(2.0, 0.0), state).state; });
   assert_near(state.integral_mps, profile().control.blade_integral_ps2 * 0.005 * 0.5, 1e-9);
-  for (int n = 0; n < 5000; ++n) {
-    state = command(test::level(-0.005), driving(2.0, 0.0), state).state;
-  }
+  repeat(5000, [&] { state = command(test::level(-0.005), driving(2.0, 0.0), state).state; });
   assert_near(state.integral_mps, profile().control.blade_integral_most_mps, 1e-9);
 }
 

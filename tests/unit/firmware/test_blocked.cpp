@@ -86,8 +86,7 @@ TEST(what_strains_and_stands_is_blocked) {
 
 /// A stroke that stands at less pressure may be a stuck sensor; one that moves is not held; without
 /// pressures, a line or a way to go nothing is known.
-TEST(what_only_stands_or_only_strains_is_not) {
-  Drive weak;
+TEST(what_only_stands_or_only_strains_is_not, Drive weak) {
   weak.push(0.76 * kLine_pa);
   assert_int_equal(weak.until(true), -1);
   assert_false(weak.state.strains);
@@ -119,8 +118,7 @@ TEST(what_only_stands_or_only_strains_is_not) {
 }
 
 /// With lambda at 0 nothing is asked of the spools, and it is held all the same.
-TEST(lambda_at_0_hides_nothing) {
-  Drive drive;
+TEST(lambda_at_0_hides_nothing, Drive drive) {
   drive.asked_mps = 0.0;
   drive.push(0.9 * kLine_pa);
   assert_true(drive.until(true) > 0);
@@ -153,9 +151,7 @@ TEST(feedback_is_eased_and_comes_back) {
     Drive drive = blocked_drive(kPush_pa, way);
     assert_near(eased_mps(drive.state, way * kWanted_mps, way * kAsked_mps), way * kAsked_mps,
                 0.06 / 30.0 + 1e-12);
-    for (int n = 0; n < 30; ++n) {
-      drive.step();
-    }
+    repeat(30, [&] { drive.step(); });
     assert_near(eased_mps(drive.state, way * kWanted_mps, way * kAsked_mps), way * kWanted_mps,
                 1e-12);
     assert_near(eased_mps(drive.state, -way * kWanted_mps, way * kAsked_mps), 0.0, 1e-12);
@@ -208,13 +204,9 @@ TEST(it_stays_wary_until_it_is_past) {
     drive.seen.stroke_m += way * 0.002;
     drive.step();
     assert_false(any_wary({&drive.state, 1}));
-    for (int n = 0; n < 590; ++n) {
-      waits.step();
-    }
+    repeat(590, [&] { waits.step(); });
     assert_true(any_wary({&waits.state, 1}));
-    for (int n = 0; n < 15; ++n) {
-      waits.step();
-    }
+    repeat(15, [&] { waits.step(); });
     assert_false(any_wary({&waits.state, 1}));
   }
 }

@@ -133,8 +133,7 @@ struct Unseen {
 };
 
 /// Commanded closed, a cylinder that runs off is found without its spool.
-TEST(the_command_stands_in_for_the_spool) {
-  Unseen machine;
+TEST(the_command_stands_in_for_the_spool, Unseen machine) {
   assert_int_equal(machine.run(100), Fault::kNone);
   for (int n = 0; n < 20; ++n) {
     machine.inputs.drive[1].stroke_m += 0.005;
@@ -148,8 +147,7 @@ TEST(the_command_stands_in_for_the_spool) {
 }
 
 /// Commanded open it may go there, and one that does not is stuck.
-TEST(a_commanded_cylinder_may_move_and_must) {
-  Unseen machine;
+TEST(a_commanded_cylinder_may_move_and_must, Unseen machine) {
   machine.cycle.duty_ratio[1] = 0.75;
   machine.cycle.asked_mps[1] = 0.1;
   for (int n = 0; n < 100; ++n) {
@@ -179,8 +177,7 @@ TEST(a_closing_spool_has_its_time) {
 }
 
 /// Nobody knows whether they are in their middle: that condition of arming is off.
-TEST(unseen_spools_count_as_centred) {
-  ExcavatorValid valid;
+TEST(unseen_spools_count_as_centred, ExcavatorValid valid) {
   for (ValidDrive& drive : valid.drive) {
     drive.spool_ratio = 1.0;
   }
@@ -287,9 +284,7 @@ TEST(the_blade_is_watched_by_its_command) {
     watch(profile, bank.rows(), cycle, 0.01, state, seen);
     return seen.fault;
   };
-  for (int n = 0; n < 100; ++n) {
-    assert_int_equal(fault_of(inputs), Fault::kNone);
-  }
+  repeat(100, [&] { assert_int_equal(fault_of(inputs), Fault::kNone); });
   Fault fault = Fault::kNone;
   for (int n = 0; n < 100 && fault == Fault::kNone; ++n) {
     inputs.drive[0].stroke_m += 0.005;

@@ -145,8 +145,7 @@ TEST(a_reversed_valve_is_stopped_within_50_mm) {
 }
 
 /// A load that sinks while the spool is at its edge.
-TEST(what_creeps_is_no_wrong_direction) {
-  Cylinder cylinder;
+TEST(what_creeps_is_no_wrong_direction, Cylinder cylinder) {
   assert_int_equal(cylinder.run(2.0, 0.15, -0.0055), Fault::kNone);
   Cylinder still;
   assert_int_equal(still.run(10.0, 0.0, -0.0055), Fault::kNone);

@@ -18,8 +18,7 @@ TEST(a_stroke_that_stands_at_a_large_duty_is_stuck) {
 }
 
 /// A ramp to the last edge there is must be possible, as must a small duty for a while.
-TEST(below_an_edge_it_may_stand_for_a_while) {
-  Cylinder ramp;
+TEST(below_an_edge_it_may_stand_for_a_while, Cylinder ramp) {
   for (double duty = 0.0; duty < 0.65; duty += 0.08 * kPeriod_s) {
     assert_int_equal(ramp.step(duty, 0.0), Fault::kNone);
   }

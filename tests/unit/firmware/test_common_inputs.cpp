@@ -39,8 +39,7 @@ Fault only_of(const FaultSet& faults) {
   return faults.first();
 }
 
-TEST(what_is_there_is_read) {
-  Machine machine;
+TEST(what_is_there_is_read, Machine machine) {
   machine.inputs.driver.task_number = test::fresh<std::uint8_t>(7, kNow);
   const CommonValid valid = machine.read();
   assert_true(valid.faults.empty());
@@ -74,8 +73,7 @@ TEST(each_of_the_operators_signals_is_required) {
 }
 
 /// A number that no mode has is none of them.
-TEST(only_automatic_is_automatic) {
-  Machine machine;
+TEST(only_automatic_is_automatic, Machine machine) {
   for (const int mode : {0, 1, 2}) {
     machine.inputs.driver.mode.value = static_cast<OperatorMode>(mode);
     assert_int_equal(machine.read().automatic, mode == 1);
@@ -97,8 +95,7 @@ TEST(each_state_of_the_bus_has_its_fault) {
   }
 }
 
-TEST(the_links_own_faults_are_taken_over) {
-  Machine machine;
+TEST(the_links_own_faults_are_taken_over, Machine machine) {
   machine.inputs.link.message_faults.add(Fault::kMessageCorrupt);
   assert_int_equal(only_of(machine.read().faults), Fault::kMessageCorrupt);
   Machine refused;
@@ -112,8 +109,7 @@ TEST(the_links_own_faults_are_taken_over) {
   }
 }
 
-TEST(another_machine_or_none_is_refused) {
-  Machine other;
+TEST(another_machine_or_none_is_refused, Machine other) {
   other.inputs.same_machine.value = false;
   assert_int_equal(only_of(other.read().faults), Fault::kIdentityMismatch);
   Machine silent;
@@ -125,8 +121,7 @@ TEST(another_machine_or_none_is_refused) {
   assert_true(silent.read().faults.empty());
 }
 
-TEST(an_engine_below_idle_does_not_run) {
-  Machine machine;
+TEST(an_engine_below_idle_does_not_run, Machine machine) {
   Signal<double>& speed = machine.inputs.engine_speed_radps;
   for (const double radps : {80.0, 81.0, 240.0}) {
     speed.value = radps;
@@ -141,8 +136,7 @@ TEST(an_engine_below_idle_does_not_run) {
 }
 
 /// What no engine runs at is not measured either; slow is safe.
-TEST(an_engine_that_is_not_known_is_at_idle) {
-  Machine fast;
+TEST(an_engine_that_is_not_known_is_at_idle, Machine fast) {
   fast.inputs.engine_speed_radps.value = std::nextafter(240.0, 300.0);
   Machine old;
   old.inputs.engine_speed_radps.stamp_us = kStale;
@@ -154,8 +148,7 @@ TEST(an_engine_that_is_not_known_is_at_idle) {
   }
 }
 
-TEST(a_stand_in_is_said) {
-  Machine machine;
+TEST(a_stand_in_is_said, Machine machine) {
   assert_false(machine.read().stand_in);
   machine.inputs.link.cannot_answer = true;
   assert_true(machine.read().stand_in);
@@ -164,8 +157,7 @@ TEST(a_stand_in_is_said) {
   assert_true(machine.read().stand_in);
 }
 
-TEST(the_valves_echo_is_read_where_the_bus_has_it) {
-  Machine machine;
+TEST(the_valves_echo_is_read_where_the_bus_has_it, Machine machine) {
   assert_false(machine.read().valve_enabled);
   machine.inputs.valve_enabled.value = true;
   assert_true(machine.read().valve_enabled);
@@ -217,8 +209,7 @@ TEST(a_bridged_jump_slows) {
   assert_true(jumped.degraded.empty());
 }
 
-TEST(what_stops_slows_or_is_said_is_added) {
-  CommonValid valid;
+TEST(what_stops_slows_or_is_said_is_added, CommonValid valid) {
   stop(with_fault(Fault::kStalled).faults, valid);
   stop(with_fault(Fault::kBusOff).faults, valid);
   assert_int_equal(valid.fault, Fault::kStalled);
@@ -250,15 +241,12 @@ struct Slowing {
 };
 
 /// The least of the last 0.2 s; without a task nothing is held.
-TEST(the_override_is_the_least_of_late) {
-  Slowing machine;
+TEST(the_override_is_the_least_of_late, Slowing machine) {
   assert_near(machine.step(Task::kNone, 0.0), 0.0, 0.0);
   for (const Task task : {Task::kDig, Task::kGrade, Task::kProgram}) {
     assert_near(machine.step(task, 1.0), 1.0, 0.0);
     assert_near(machine.step(task, 0.25), 0.25, 0.0);
-    for (int n = 0; n < 3; ++n) {
-      assert_near(machine.step(task, 1.0), 0.25, 0.0);
-    }
+    repeat(3, [&] { assert_near(machine.step(task, 1.0), 0.25, 0.0); });
     assert_near(machine.step(task, 1.0), 1.0, 0.0);
     assert_near(machine.step(task, 0.25), 0.25, 0.0);
     assert_near(machine.step(Task::kNone, 1.0), 1.0, 0.0);
@@ -266,14 +254,11 @@ TEST(the_override_is_the_least_of_late) {
 }
 
 /// As low once more counts from then on.
-TEST(the_override_is_held_from_its_last_least) {
-  Slowing machine;
+TEST(the_override_is_held_from_its_last_least, Slowing machine) {
   machine.step(Task::kDig, 0.25);
   machine.step(Task::kDig, 1.0);
   assert_near(machine.step(Task::kDig, 0.25), 0.25, 0.0);
-  for (int n = 0; n < 3; ++n) {
-    assert_near(machine.step(Task::kDig, 1.0), 0.25, 0.0);
-  }
+  repeat(3, [&] { assert_near(machine.step(Task::kDig, 1.0), 0.25, 0.0); });
   assert_near(machine.step(Task::kDig, 1.0), 1.0, 0.0);
   // Held to the end of its time, which is past when nothing is left of it.
   machine.state.override_ratio = 0.25;
@@ -281,8 +266,7 @@ TEST(the_override_is_held_from_its_last_least) {
   assert_near(machine.step(Task::kDig, 1.0), 1.0, 0.0);
 }
 
-TEST(what_degraded_slows_for_a_second) {
-  Slowing machine;
+TEST(what_degraded_slows_for_a_second, Slowing machine) {
   assert_near(machine.step(Task::kDig, 1.0), 1.0, 0.0);
   assert_near(machine.seen.engine_radps, 150.0, 0.0);
   assert_near(machine.step(Task::kDig, 1.0, Fault::kEngineSpeedMissing), 0.5, 0.0);

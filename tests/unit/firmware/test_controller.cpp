@@ -19,8 +19,7 @@ TEST(starts_silent_and_neutral) {
   assert_neutral(outputs);
 }
 
-TEST(moves_once_armed_with_a_task) {
-  Running running;
+TEST(moves_once_armed_with_a_task, Running running) {
   assert_int_equal(running.outputs.status.mode, EcuMode::kActive);
   assert_true(running.outputs.enable);
   assert_true(running.outputs.status.lambda > 0.0);
@@ -32,8 +31,7 @@ TEST(moves_once_armed_with_a_task) {
 }
 
 /// Each spool moves the way its cylinder is wanted to.
-TEST(duties_have_the_wanted_velocitys_signs) {
-  Running running;
+TEST(duties_have_the_wanted_velocitys_signs, Running running) {
   const ExcavatorOutputs outputs = running.step(running.inputs());
   for (unsigned i = 0; i < kAxisCount; ++i) {
     if (outputs.duty_ratio[i] != 0.0) {
@@ -42,8 +40,7 @@ TEST(duties_have_the_wanted_velocitys_signs) {
   }
 }
 
-TEST(released_enable_is_neutral_in_the_same_cycle) {
-  Running running;
+TEST(released_enable_is_neutral_in_the_same_cycle, Running running) {
   ExcavatorInputs released = running.inputs();
   released.driver.enable.value = false;
   assert_neutral(running.step(released));
@@ -68,8 +65,7 @@ TEST(a_missing_sensor_is_neutral_within_50_ms) {
 }
 
 /// Fresh inputs after a pause do not make up for what was not seen.
-TEST(a_stalled_cycle_is_neutral_and_latched) {
-  Running running;
+TEST(a_stalled_cycle_is_neutral_and_latched, Running running) {
   running.now_us += 30 * kMillisecondUs;
   assert_true(running.step(running.inputs()).enable);
   running.step(running.inputs());
@@ -83,8 +79,7 @@ TEST(a_stalled_cycle_is_neutral_and_latched) {
 /// Loads against every cylinder, just below where the sensors end and above what a pump's relief
 /// lets it push: told within 0.7 s for the load's filter, and no spool opens against it. What is
 /// open lets the pressure off.
-TEST(an_impossible_load_is_not_pushed) {
-  Running running;
+TEST(an_impossible_load_is_not_pushed, Running running) {
   ExcavatorOutputs outputs;
   for (int n = 0; n < 70; ++n) {
     ExcavatorInputs inputs = running.inputs();
@@ -104,13 +99,10 @@ TEST(an_impossible_load_is_not_pushed) {
 
 /// The load's filter starts with what it sees: a start right after switching on is the same as one
 /// after a second of rest, which any filter has followed.
-TEST(every_start_sees_its_own_load) {
-  Running once;
+TEST(every_start_sees_its_own_load, Running once) {
   Running again;
   again.step(again.at_rest(false));
-  for (int n = 0; n < 100; ++n) {
-    again.step(again.at_rest(true));
-  }
+  repeat(100, [&] { again.step(again.at_rest(true)); });
   again.step(again.inputs());
   for (int n = 0; n < 8; ++n) {
     once.step(once.inputs());
@@ -139,8 +131,7 @@ TEST(lambda_rises_anew_from_every_rest) {
   }
 }
 
-TEST(the_same_inputs_give_the_same_outputs) {
-  Running first;
+TEST(the_same_inputs_give_the_same_outputs, Running first) {
   Running second;
   for (int n = 0; n < 50; ++n) {
     const ExcavatorOutputs a = first.step(first.inputs());
@@ -160,16 +151,13 @@ ExcavatorInputs with_open_spool(ExcavatorInputs inputs) {
 
 /// The deadman is let go, and the spool does not close: the pilot pressure goes, and comes back
 /// with a fresh enable only, although it has centred the spool.
-TEST(a_spool_left_open_cuts_the_pilot_pressure) {
-  Running running;
+TEST(a_spool_left_open_cuts_the_pilot_pressure, Running running) {
   for (int n = 0; n < 60 && !running.outputs.pilot_cut; ++n) {
     running.step(with_open_spool(running.at_rest(false)));
   }
   assert_true(running.outputs.pilot_cut);
   assert_int_equal(running.outputs.status.fault, Fault::kSpoolStuck);
-  for (int n = 0; n < 20; ++n) {
-    assert_true(running.step(running.at_rest(false)).pilot_cut);
-  }
+  repeat(20, [&] { assert_true(running.step(running.at_rest(false)).pilot_cut); });
   assert_int_equal(running.outputs.status.mode, EcuMode::kReady);
   running.step(running.at_rest(true));
   assert_int_equal(running.outputs.status.mode, EcuMode::kArmed);
@@ -194,8 +182,7 @@ TEST(a_spool_moved_by_hand_is_no_fault) {
 
 /// 40 mm at once are too much for the boom in 10 ms, not in 40 ms: frames that were refused give it
 /// no time.
-TEST(a_small_jump_that_stays_stops) {
-  Running running;
+TEST(a_small_jump_that_stays_stops, Running running) {
   running.step(running.inputs());
   for (int n = 0; n < 5; ++n) {
     ExcavatorInputs inputs = running.inputs();

@@ -41,9 +41,7 @@ struct Digging : test::Running {
     return inputs;
   }
   void run(int count) {
-    for (int n = 0; n < count; ++n) {
-      step(next());
-    }
+    repeat(count, [&] { step(next()); });
   }
   [[nodiscard]] double wanted_mps() const {
     double most = 0.0;
@@ -108,8 +106,7 @@ TEST(one_late_cycle_is_borne) {
   assert_true(after_late(digging, {true, true, true}, kLate - 1).enable);  // 15 ms: in time.
 }
 
-TEST(the_second_late_cycle_in_a_row_stops) {
-  Digging digging;
+TEST(the_second_late_cycle_in_a_row_stops, Digging digging) {
   after_late(digging, {true, true}, 5 * kMillisecondUs + 1);
   assert_latched(Fault::kCycleOverrun, digging);
   Digging ever_late;
@@ -119,8 +116,7 @@ TEST(the_second_late_cycle_in_a_row_stops) {
               1U);
 }
 
-TEST(told_to_end_is_neutral_for_good) {
-  Digging digging;
+TEST(told_to_end_is_neutral_for_good, Digging digging) {
   ExcavatorInputs last = digging.next();
   last.link.stop_requested = true;
   assert_neutral(digging.step(last));
@@ -182,8 +178,7 @@ TEST(a_lost_engine_speed_slows) {
 
 /// A spool that stays open against its command. The pilot pressure stays cut until the operator has
 /// armed again: with the deadman released the spool must not get it back.
-TEST(a_stuck_spool_cuts_the_pilot_until_rearmed) {
-  Digging digging;
+TEST(a_stuck_spool_cuts_the_pilot_until_rearmed, Digging digging) {
   int cycles = 0;
   while (digging.outputs.status.mode == EcuMode::kActive) {
     assert_false(digging.outputs.pilot_cut);
@@ -199,9 +194,7 @@ TEST(a_stuck_spool_cuts_the_pilot_until_rearmed) {
     assert_stopped_by(Fault::kSpoolStuck, digging.outputs);
     assert_true(digging.outputs.pilot_cut);
   }
-  for (int n = 0; n < 100; ++n) {
-    assert_true(digging.step(digging.at_rest(false)).pilot_cut);
-  }
+  repeat(100, [&] { assert_true(digging.step(digging.at_rest(false)).pilot_cut); });
   assert_int_equal(digging.outputs.status.mode, EcuMode::kReady);
   assert_false(digging.step(digging.at_rest(true)).pilot_cut);
   assert_int_equal(digging.outputs.status.mode, EcuMode::kArmed);
@@ -228,8 +221,7 @@ TEST(another_fault_does_not_hide_a_stuck_spool) {
 }
 
 /// Nor does it outside motion, and the cut stays when the spool is back.
-TEST(a_spool_left_open_stays_without_pilot) {
-  Digging digging;
+TEST(a_spool_left_open_stays_without_pilot, Digging digging) {
   for (int n = 0; n < 40; ++n) {
     ExcavatorInputs inputs = digging.at_rest(false);
     inputs.axis[kArm].cap_pressure_pa.validity = Validity::kNotAvailable;
@@ -252,8 +244,7 @@ TEST(a_start_leaves_the_pilot_as_it_is) {
 }
 
 /// Enable that is given and not confirmed.
-TEST(a_deaf_valve_cuts_the_pilot) {
-  Digging digging;
+TEST(a_deaf_valve_cuts_the_pilot, Digging digging) {
   for (int n = 0; n < kEchoCycles; ++n) {
     assert_int_equal(digging.outputs.status.mode, EcuMode::kActive);
     ExcavatorInputs inputs = digging.next();
@@ -267,8 +258,7 @@ TEST(a_deaf_valve_cuts_the_pilot) {
 
 /// Enable that is confirmed without having been given: cut while it is so, and no longer, because
 /// nobody was in motion.
-TEST(a_valve_that_enables_itself_cuts_the_pilot) {
-  Digging digging;
+TEST(a_valve_that_enables_itself_cuts_the_pilot, Digging digging) {
   digging.step(digging.at_rest(false));
   for (int n = 0; n < kEchoCycles; ++n) {
     assert_false(digging.outputs.pilot_cut);
@@ -283,8 +273,7 @@ TEST(a_valve_that_enables_itself_cuts_the_pilot) {
 }
 
 /// What stops for other reasons leaves the pilot alone.
-TEST(other_faults_leave_the_pilot) {
-  Digging digging;
+TEST(other_faults_leave_the_pilot, Digging digging) {
   ExcavatorInputs inputs = digging.next();
   inputs.link.bus = BusState::kOff;
   assert_false(digging.step(inputs).pilot_cut);
@@ -292,8 +281,7 @@ TEST(other_faults_leave_the_pilot) {
 }
 
 /// Any bit of the mode: neutral in this cycle, latched; nothing of what it has become counts.
-TEST(a_flipped_bit_of_the_mode_stops) {
-  Digging before;
+TEST(a_flipped_bit_of_the_mode_stops, Digging before) {
   for (std::size_t bit = 0; bit < 8 * sizeof(Guarded<ModeState>); ++bit) {
     Digging digging = before;
     test::flip_bit(Memory::mode(digging.controller), bit);
@@ -307,8 +295,7 @@ TEST(a_flipped_bit_of_the_mode_stops) {
   assert_int_equal(before.outputs.status.mode, EcuMode::kReady);
 }
 
-TEST(a_flipped_bit_of_lambda_stops) {
-  Digging before;
+TEST(a_flipped_bit_of_lambda_stops, Digging before) {
   for (std::size_t bit = 0; bit < 8 * sizeof(Guarded<double>); ++bit) {
     Digging digging = before;
     test::flip_bit(Memory::lambda(digging.controller), bit);
@@ -317,8 +304,7 @@ TEST(a_flipped_bit_of_lambda_stops) {
   }
 }
 
-TEST(a_flipped_bit_of_an_opening_stops) {
-  Digging before;
+TEST(a_flipped_bit_of_an_opening_stops, Digging before) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     Digging digging = before;
     test::flip_bit(Memory::opening(digging.controller)[axis], 17 * axis);
@@ -328,8 +314,7 @@ TEST(a_flipped_bit_of_an_opening_stops) {
 }
 
 /// All that are there are in the set; the first that stopped is the fault.
-TEST(the_status_names_all_faults) {
-  Digging digging;
+TEST(the_status_names_all_faults, Digging digging) {
   ExcavatorInputs inputs = digging.next();
   inputs.link.bus = BusState::kPassive;
   inputs.link.out_of_range = true;

@@ -28,8 +28,7 @@ ModeDecision decided(const CommonValid& valid, Fault fault, bool centred, bool s
   return decide_mode({}, cycle, valid, fault, centred, stop_requested);
 }
 
-TEST(a_mode_that_changed_in_memory_is_a_fault) {
-  CycleMemory memory;
+TEST(a_mode_that_changed_in_memory_is_a_fault, CycleMemory memory) {
   memory.mode = ModeState{EcuMode::kArmed, Fault::kNone, true};
   CommonValid valid;
   valid.enable = valid.automatic = true;
@@ -147,8 +146,7 @@ MachineStatus describe(const ModeState& mode, const ModeRequest& request,
   return status;
 }
 
-TEST(what_stopped_it_is_named_before_what_slows) {
-  CommonValid valid;
+TEST(what_stopped_it_is_named_before_what_slows, CommonValid valid) {
   valid.faults = only(Fault::kPressureMissing);
   valid.degraded = only(Fault::kPressureMissing);
   const MachineStatus slow = describe({EcuMode::kActive, Fault::kNone}, {}, valid);
@@ -163,8 +161,7 @@ TEST(what_stopped_it_is_named_before_what_slows) {
 }
 
 /// The request's fault is there now and blocks; the latched one was, and only says so.
-TEST(what_blocks_is_what_is_there) {
-  ModeRequest request;
+TEST(what_blocks_is_what_is_there, ModeRequest request) {
   request.automatic = true;
   request.fault = Fault::kCycleStalled;
   const MachineStatus status = describe({EcuMode::kFault, Fault::kBusOff}, request, {});
@@ -202,8 +199,7 @@ TEST(the_first_cycle_is_well) {
   }
 }
 
-TEST(time_is_counted_from_the_last_cycle) {
-  Clock clock;
+TEST(time_is_counted_from_the_last_cycle, Clock clock) {
   assert_int_equal(clock.after(10 * kMillisecondUs), Fault::kNone);
   assert_near(clock.seen.elapsed_s, 0.010, 1e-15);
   assert_near(clock.seen.period_s, 0.010, 1e-15);
@@ -212,8 +208,7 @@ TEST(time_is_counted_from_the_last_cycle) {
 }
 
 /// What may change by so much a second gets no more than two cycles; a clock that ran back, none.
-TEST(no_cycle_is_a_large_step) {
-  Clock clock;
+TEST(no_cycle_is_a_large_step, Clock clock) {
   static_cast<void>(clock.after(40 * kMillisecondUs));
   assert_near(clock.seen.elapsed_s, 0.040, 1e-15);
   assert_near(clock.seen.period_s, 0.020, 1e-15);
@@ -233,9 +228,7 @@ TEST(the_second_late_one_in_a_row_is_an_overrun) {
     assert_int_equal(clock.after(kLate - 1), Fault::kNone);
   }
   assert_int_equal(clock.after(kLate), Fault::kNone);
-  for (int n = 0; n < 5; ++n) {
-    assert_int_equal(clock.after(kLate), Fault::kCycleOverrun);
-  }
+  repeat(5, [&] { assert_int_equal(clock.after(kLate), Fault::kCycleOverrun); });
   assert_int_equal(clock.after(10 * kMillisecondUs), Fault::kNone);
   assert_int_equal(clock.after(kLate), Fault::kNone);
 }
@@ -268,8 +261,7 @@ TEST(late_ones_fill_a_bucket) {
 }
 
 /// It holds 60 ms and no more, runs empty by a tenth of the time, and never below 0.
-TEST(the_bucket_runs_empty) {
-  TimeState state;
+TEST(the_bucket_runs_empty, TimeState state) {
   state.has_stepped = true;
   state.late_us = 20 * kMillisecondUs;
   constexpr TimeUs kElapsed = 50 * kMillisecondUs;
@@ -288,8 +280,7 @@ TEST(the_bucket_runs_empty) {
   assert_int_equal(watch_time(state, -kElapsed - kSecondUs).state.late_us, 30 * kMillisecondUs);
 }
 
-TEST(a_long_gap_is_a_stall) {
-  Clock clock;
+TEST(a_long_gap_is_a_stall, Clock clock) {
   assert_int_equal(clock.after(50 * kMillisecondUs), Fault::kNone);
   static_cast<void>(clock.after(10 * kMillisecondUs));
   assert_int_equal(clock.after(50 * kMillisecondUs + 1), Fault::kCycleStalled);

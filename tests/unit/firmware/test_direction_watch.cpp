@@ -55,15 +55,13 @@ struct Bench {
   }
 };
 
-TEST(oil_that_pushes_against_the_spool_stops) {
-  Bench bench;
+TEST(oil_that_pushes_against_the_spool_stops, Bench bench) {
   bench.move(0.0);
   bench.move(0.0);
   assert_true(bench.stops_after(4, -kStep_m));
 }
 
-TEST(the_other_way_is_as_wrong) {
-  Bench bench;
+TEST(the_other_way_is_as_wrong, Bench bench) {
   bench.open(-0.5);
   bench.push(3e6);
   bench.move(0.0);
@@ -71,8 +69,7 @@ TEST(the_other_way_is_as_wrong) {
   assert_true(bench.stops_after(4, kStep_m));
 }
 
-TEST(what_goes_with_the_spool_makes_up_for_it) {
-  Bench bench;
+TEST(what_goes_with_the_spool_makes_up_for_it, Bench bench) {
   bench.move(0.0);
   bench.move(0.0);
   assert_false(bench.stops_after(3, -kStep_m));
@@ -82,8 +79,7 @@ TEST(what_goes_with_the_spool_makes_up_for_it) {
 }
 
 /// A drive that shakes has gone with its spool before it swings back; up to four bounds count.
-TEST(what_it_went_before_is_set_off) {
-  Bench bench;
+TEST(what_it_went_before_is_set_off, Bench bench) {
   bench.move(0.0);
   assert_false(bench.stops_after(7, kStep_m));
   assert_true(bench.stops_after(11, -kStep_m));
@@ -93,16 +89,14 @@ TEST(what_it_went_before_is_set_off) {
   assert_true(farther.stops_after(18, -kStep_m));
 }
 
-TEST(a_load_that_pushes_back_is_no_fault) {
-  Bench bench;
+TEST(a_load_that_pushes_back_is_no_fault, Bench bench) {
   bench.push(3e6);
   bench.move(0.0);
   bench.move(0.0);
   assert_false(bench.stops_after(50, -kStep_m));
 }
 
-TEST(pressures_within_their_zeros_push_nowhere) {
-  Bench bench;
+TEST(pressures_within_their_zeros_push_nowhere, Bench bench) {
   bench.push(-1.2e6);
   bench.move(0.0);
   bench.move(0.0);
@@ -111,15 +105,13 @@ TEST(pressures_within_their_zeros_push_nowhere) {
   assert_true(bench.stops_after(4, -kStep_m));
 }
 
-TEST(a_drive_that_coasts_is_let_go_on_until_it_turns) {
-  Bench bench;
+TEST(a_drive_that_coasts_is_let_go_on_until_it_turns, Bench bench) {
   assert_false(bench.stops_after(50, -kStep_m));
   assert_false(bench.stops_after(1, kStep_m));
   assert_true(bench.stops_after(5, -kStep_m));
 }
 
-TEST(a_spool_within_its_dead_band_leads_nowhere) {
-  Bench bench;
+TEST(a_spool_within_its_dead_band_leads_nowhere, Bench bench) {
   for (const double spool_ratio : {0.0, 0.1, -0.1, kEdge, -kEdge}) {
     bench.open(spool_ratio);
     for (const double push_pa : {-3e6, 3e6}) {
@@ -154,8 +146,7 @@ TEST(a_spool_that_closes_begins_anew) {
 }
 
 /// Where a dead band ends is known within 3 % of the travel, a motor's too.
-TEST(a_spool_near_its_edge_may_be_closed) {
-  Bench bench;
+TEST(a_spool_near_its_edge_may_be_closed, Bench bench) {
   bench.open(kEdge + 0.029);
   bench.move(0.0);
   bench.move(0.0);
@@ -172,8 +163,7 @@ TEST(a_spool_near_its_edge_may_be_closed) {
   assert_true(motor.stops_after(4, -kStep_m));
 }
 
-TEST(another_side_begins_anew) {
-  Bench bench;
+TEST(another_side_begins_anew, Bench bench) {
   bench.move(0.0);
   bench.move(0.0);
   assert_false(bench.stops_after(3, -kStep_m));
@@ -183,16 +173,14 @@ TEST(another_side_begins_anew) {
   assert_false(bench.stops_after(50, -kStep_m));
 }
 
-TEST(a_stroke_that_did_not_come_says_nothing) {
-  Bench bench;
+TEST(a_stroke_that_did_not_come_says_nothing, Bench bench) {
   bench.move(0.0);
   bench.move(0.0);
   bench.seen.stroke_is_new = false;
   assert_false(bench.stops_after(50, -kStep_m));
 }
 
-TEST(without_its_pressures_a_drive_is_not_checked) {
-  Bench bench;
+TEST(without_its_pressures_a_drive_is_not_checked, Bench bench) {
   bench.move(0.0);
   bench.move(0.0);
   assert_false(bench.stops_after(3, -kStep_m));
@@ -202,8 +190,7 @@ TEST(without_its_pressures_a_drive_is_not_checked) {
   assert_false(bench.stops_after(50, -kStep_m));
 }
 
-TEST(at_its_bound_it_is_sound) {
-  Bench bench;
+TEST(at_its_bound_it_is_sound, Bench bench) {
   bench.row.watch.wrong_m = 4.0 * kStep_m;
   bench.move(0.0);
   bench.move(0.0);
@@ -220,8 +207,7 @@ TEST(only_its_drives_are_watched) {
   assert_int_equal(states[1].side, 0);
 }
 
-TEST(a_drive_without_a_bound_is_not_checked) {
-  Bench bench;
+TEST(a_drive_without_a_bound_is_not_checked, Bench bench) {
   bench.row.watch.wrong_m = 0.0;
   bench.move(0.0);
   assert_false(bench.stops_after(50, -kStep_m));

@@ -40,9 +40,7 @@ struct Displacement {
   }
   void settle(double ratio) {
     sent = measured = ratio;
-    for (int n = 0; n < CommandHistory::kMostCycles; ++n) {
-      assert_false(disagrees(0.0625) || seen.runs_away);
-    }
+    repeat(CommandHistory::kMostCycles, [&] { assert_false(disagrees(0.0625) || seen.runs_away); });
   }
 };
 
@@ -206,9 +204,7 @@ TEST(one_that_is_not_judged_begins_afresh) {
   assert_false(one.disagrees(0.5) || one.runs_away());
   one.task = DisplacementTask::kNone;
   assert_false(one.disagrees(10.0));
-  for (int n = 0; n < 10; ++n) {
-    assert_false(one.runs_away());
-  }
+  repeat(10, [&] { assert_false(one.runs_away()); });
   one.task = DisplacementTask::kFollow;
   // Where it is now is where it begins: it may stay away, as long as it comes to its command.
   assert_false(one.disagrees(0.5));
@@ -226,8 +222,7 @@ TEST(one_that_is_not_judged_begins_afresh) {
 }
 
 /// A motor's neutral is 1: from the first cycle on nothing else was commanded.
-TEST(the_history_begins_at_neutral) {
-  Displacement motor;
+TEST(the_history_begins_at_neutral, Displacement motor) {
   motor.state = DisplacementState(1.0);
   motor.sent = motor.measured = 1.0;
   assert_false(motor.runs_away());

@@ -25,8 +25,7 @@ TEST(before_anything_is_received_it_is_neutral_and_braked) {
   assert_true(outputs.status.why_not_armed != 0);
 }
 
-TEST(it_gets_faster_at_its_rate_and_lets_the_brake_go) {
-  Grading grading;
+TEST(it_gets_faster_at_its_rate_and_lets_the_brake_go, Grading grading) {
   assert_false(grading.outputs.brake);
   grading.run(130);
   assert_near(grading.outputs.status.wanted_speed_mps, 0.5 * 1.5, 0.02);
@@ -37,8 +36,7 @@ TEST(it_gets_faster_at_its_rate_and_lets_the_brake_go) {
 }
 
 /// The machine of the test stays level: only the edge's way into the trench asks for flow.
-TEST(before_the_trench_it_slows_down_and_its_blade_follows) {
-  Grading grading;
+TEST(before_the_trench_it_slows_down_and_its_blade_follows, Grading grading) {
   double slowest_mps = 9.0;
   while (grading.position_m < 2.5) {
     grading.run(1);
@@ -71,8 +69,7 @@ TEST(what_its_pump_does_not_give_is_not_planned_with) {
   assert_near(slowest_into_the_trench_mps(0.8), 0.8 * whole_mps, 0.05 * whole_mps);
 }
 
-TEST(the_operators_share_of_the_speed_is_kept) {
-  Grading grading;
+TEST(the_operators_share_of_the_speed_is_kept, Grading grading) {
   for (int n = 0; n < 300; ++n) {
     DozerInputs inputs = grading.next();
     inputs.driver.speed_override_ratio.value = 0.25;
@@ -82,16 +79,14 @@ TEST(the_operators_share_of_the_speed_is_kept) {
   assert_near(grading.outputs.status.lambda, 0.25, 1e-9);
 }
 
-TEST(without_a_task_it_stands) {
-  Grading grading;
+TEST(without_a_task_it_stands, Grading grading) {
   grading.run(100);
   grading.step(grading.at_rest(true));
   assert_int_equal(grading.outputs.status.mode, EcuMode::kArmed);
   assert_neutral(grading.outputs);
 }
 
-TEST(released_it_is_neutral_in_the_same_cycle) {
-  Grading grading;
+TEST(released_it_is_neutral_in_the_same_cycle, Grading grading) {
   grading.run(100);
   DozerInputs inputs = grading.next();
   inputs.driver.enable.value = false;
@@ -118,9 +113,7 @@ void assert_stops(const char* what, Fault fault, const Change& change, int cycle
   grading.step(grading.next());
   assert_int_equal(grading.outputs.status.mode, EcuMode::kFault);
   // Released, and given afresh at rest, it may go on.
-  for (int n = 0; n < 100; ++n) {
-    grading.step(grading.at_rest(false));
-  }
+  repeat(100, [&] { grading.step(grading.at_rest(false)); });
   grading.step(grading.at_rest(true));
   assert_int_equal(grading.outputs.status.mode, EcuMode::kArmed);
 }
@@ -164,8 +157,7 @@ TEST(what_stops_it_stops_it) {
   }
 }
 
-TEST(a_runaway_asks_for_the_brake_at_once) {
-  Grading grading;
+TEST(a_runaway_asks_for_the_brake_at_once, Grading grading) {
   grading.run(100);
   for (int n = 0; n < 30 && grading.outputs.enable; ++n) {
     DozerInputs inputs = grading.next();
@@ -176,8 +168,7 @@ TEST(a_runaway_asks_for_the_brake_at_once) {
   assert_true(grading.outputs.brake);
 }
 
-TEST(a_lost_engine_speed_slows_it) {
-  Grading grading;
+TEST(a_lost_engine_speed_slows_it, Grading grading) {
   for (int n = 0; n < 400; ++n) {
     DozerInputs inputs = grading.next();
     if (n > 200) {
@@ -195,8 +186,7 @@ TEST(a_lost_engine_speed_slows_it) {
 }
 
 /// A track shown much too slow: it goes on slower, and that track is not driven after its sensor.
-TEST(a_wrong_track_speed_is_not_followed) {
-  Grading grading;
+TEST(a_wrong_track_speed_is_not_followed, Grading grading) {
   for (int n = 0; n < 600; ++n) {
     DozerInputs inputs = grading.next();
     if (n > 200) {
@@ -245,8 +235,7 @@ TEST(a_flipped_bit_stops_it) {
 }
 
 /// v_c is gone on with from its guarded copy alone.
-TEST(an_unguarded_speed_moves_nothing) {
-  Grading sound;
+TEST(an_unguarded_speed_moves_nothing, Grading sound) {
   sound.run(100);
   Grading flipped = sound;
   DozerMemoryAccess::speed_state(flipped.controller).speed_mps = 1.6;
@@ -255,8 +244,7 @@ TEST(an_unguarded_speed_moves_nothing) {
   assert_near(flipped.outputs.status.wanted_speed_mps, sound.outputs.status.wanted_speed_mps, 0.0);
 }
 
-TEST(cycles_that_come_late_stop_it) {
-  Grading grading;
+TEST(cycles_that_come_late_stop_it, Grading grading) {
   grading.now_us += 6 * kMillisecondUs;
   grading.step(grading.next());
   assert_true(grading.outputs.enable);
@@ -266,8 +254,7 @@ TEST(cycles_that_come_late_stop_it) {
   assert_int_equal(grading.outputs.status.fault, Fault::kCycleOverrun);
 }
 
-TEST(told_to_end_it_is_neutral_for_good) {
-  Grading grading;
+TEST(told_to_end_it_is_neutral_for_good, Grading grading) {
   DozerInputs last = grading.next();
   last.link.stop_requested = true;
   assert_neutral(grading.step(last));

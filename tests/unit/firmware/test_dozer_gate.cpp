@@ -195,8 +195,7 @@ TEST(a_flipped_bit_is_refused) {
 }
 
 /// Neutral needs nothing of what is stored.
-TEST(a_flipped_bit_does_not_matter_at_rest) {
-  DozerGateState open;
+TEST(a_flipped_bit_does_not_matter_at_rest, DozerGateState open) {
   test::flip_bit(open, 3);
   const Gated result = gate(profile(), open, false, {}, kStep_s);
   assert_int_equal(result.fault, Fault::kNone);

@@ -47,8 +47,7 @@ TEST(the_tracks_tolerance_grows_with_speed) {
 
 /// What it ought to be follows engine and both displacements; without the engine's speed there is
 /// nothing to compare with.
-TEST(a_tracks_speed_is_that_of_its_displacements) {
-  Machine fast;
+TEST(a_tracks_speed_is_that_of_its_displacements, Machine fast) {
   fast.drive(1.0, 0.5);  // 4 m/s
   assert_well(fast.run(50));
   fast.inputs.engine_radps = 20.0;
@@ -118,8 +117,7 @@ TEST(sides_that_are_apart_slow) {
 }
 
 /// Nothing of it is kept over a time in which it is not looked at.
-TEST(votes_are_counted_in_motion_only) {
-  Machine machine;
+TEST(votes_are_counted_in_motion_only, Machine machine) {
   machine.inputs.track_speed_mps[kLeft] = 0.0;
   machine.step();
   machine.cycle.drives.moving = false;
@@ -129,8 +127,7 @@ TEST(votes_are_counted_in_motion_only) {
   assert_well(machine.step());
 }
 
-TEST(a_pose_that_does_not_fit_stops) {
-  Machine machine;
+TEST(a_pose_that_does_not_fit_stops, Machine machine) {
   machine.run(3);
   machine.frozen = true;
   assert_stopped_by(Fault::kPoseDisagrees, machine.step());
@@ -147,8 +144,7 @@ TEST(a_pose_that_does_not_fit_stops) {
 }
 
 /// Without an engine speed only the tracks speak of the body's speed.
-TEST(the_engines_speed_may_be_missing) {
-  Machine machine;
+TEST(the_engines_speed_may_be_missing, Machine machine) {
   machine.inputs.faults.add(Fault::kEngineSpeedMissing);
   machine.inputs.engine_radps = 4.0;
   assert_false(machine.run(20).faults.has(Fault::kPoseDisagrees));

@@ -133,9 +133,7 @@ TEST(the_rate_of_a_jump_is_not_believed) {
 TEST(a_jump_and_back_is_bridged) {
   for (const Followed& one : kFollowed) {
     Machine machine(one);
-    for (int n = 0; n < 3; ++n) {
-      assert_true(machine.frame(Machine::far()).degraded.has(one.jump));
-    }
+    repeat(3, [&] { assert_true(machine.frame(Machine::far()).degraded.has(one.jump)); });
     assert_true(machine.frame(kAt + 0.001).faults.empty());
     assert_near(machine.believed(), kAt + 0.001, 0.0);
   }

@@ -6,8 +6,7 @@
 using namespace graben;
 using namespace graben::test::of_dozer;
 
-TEST(a_machine_that_obeys_is_left_alone) {
-  Machine machine;
+TEST(a_machine_that_obeys_is_left_alone, Machine machine) {
   for (int n = 0; n < 200; ++n) {
     machine.drive(0.5 * std::sin(0.02 * n), 1.0);
     machine.inputs.drive[0].stroke_m = 0.5 + 0.01 * std::sin(0.02 * n);
@@ -15,8 +14,7 @@ TEST(a_machine_that_obeys_is_left_alone) {
   }
 }
 
-TEST(the_spool_and_its_echo_stop) {
-  Machine stuck;
+TEST(the_spool_and_its_echo_stop, Machine stuck) {
   stuck.run(kSpoolUnderWay);
   stuck.inputs.drive[0].spool_ratio = kOpen;
   assert_int_equal(stuck.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
@@ -39,8 +37,7 @@ TEST(the_spool_and_its_echo_stop) {
 }
 
 /// What is not received is not judged, and counted afresh when it is.
-TEST(a_spool_that_is_not_seen_is_not_judged) {
-  Machine machine;
+TEST(a_spool_that_is_not_seen_is_not_judged, Machine machine) {
   machine.inputs.valve_enabled = false;
   machine.inputs.drive[0].spool_ratio = kOpen;
   machine.run(kSpoolWrongCycles - 1);
@@ -56,8 +53,7 @@ TEST(a_spool_that_is_not_seen_is_not_judged) {
                    kEchoCycles - kSpoolWrongCycles);
 }
 
-TEST(the_blade_stops) {
-  Machine moves;
+TEST(the_blade_stops, Machine moves) {
   moves.run(20);
   moves.inputs.drive[0].stroke_m = 0.625;
   assert_stopped_by(Fault::kUncommandedMotion, moves.step());
@@ -105,8 +101,7 @@ TEST(a_displacement_that_runs_away_stops) {
   }
 }
 
-TEST(the_first_fault_stays_the_first) {
-  Machine machine;
+TEST(the_first_fault_stays_the_first, Machine machine) {
   machine.inputs.valve_enabled = false;
   machine.run(kEchoCycles - 1);
   machine.inputs.fault = Fault::kBusOff;
@@ -117,8 +112,7 @@ TEST(the_first_fault_stays_the_first) {
 }
 
 /// With a fault that stops, the blade's watch begins afresh.
-TEST(a_stopped_blade_is_not_judged) {
-  Machine machine;
+TEST(a_stopped_blade_is_not_judged, Machine machine) {
   machine.run(20);
   assert_true(machine.state.drives.motion[0].since_s > 0.0);
   machine.inputs.fault = Fault::kStrokeMissing;
@@ -129,8 +123,7 @@ TEST(a_stopped_blade_is_not_judged) {
 }
 
 /// Outside motion people move it: blade and transmission are theirs. The valve's echo is not.
-TEST(not_in_motion_the_machine_is_the_operators) {
-  Machine machine;
+TEST(not_in_motion_the_machine_is_the_operators, Machine machine) {
   const DozerLastCommands nothing;
   machine.cycle = nothing;
   machine.inputs.valve_enabled = false;
@@ -145,8 +138,7 @@ TEST(not_in_motion_the_machine_is_the_operators) {
   assert_int_equal(machine.cycles_until(Fault::kValveNotFollowing), kEchoCycles);
 }
 
-TEST(a_spool_that_does_not_close_after_motion_is_stuck) {
-  Released machine;
+TEST(a_spool_that_does_not_close_after_motion_is_stuck, Released machine) {
   assert_int_equal(machine.cycles_until(Fault::kSpoolStuck),
                    kSpoolUnderWay - 1 + kSpoolWrongCycles);
   machine.inputs.drive[0].spool_ratio = 0.0;
@@ -172,8 +164,7 @@ TEST(a_pump_that_does_not_return_after_motion_runs_away) {
 }
 
 /// Taken over in manual mode, it is somebody's hand; an operator who is not heard has not.
-TEST(manual_mode_takes_over) {
-  Released taken;
+TEST(manual_mode_takes_over, Released taken) {
   taken.inputs.automatic = false;
   assert_int_equal(taken.cycles_until(Fault::kDisplacementRunaway), -1);
   assert_false(taken.seen.faults.has(Fault::kSpoolStuck));
@@ -185,8 +176,7 @@ TEST(manual_mode_takes_over) {
 }
 
 /// A transmission that is not seen is not judged, and has not returned either.
-TEST(what_is_not_seen_has_not_returned) {
-  Released machine;
+TEST(what_is_not_seen_has_not_returned, Released machine) {
   machine.inputs.faults.add(Fault::kTransmissionMissing);
   machine.inputs.pump_ratio = {0.0, 0.0};
   assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), -1);
@@ -196,15 +186,13 @@ TEST(what_is_not_seen_has_not_returned) {
 }
 
 /// After motion the tracks coast as they like.
-TEST(tracks_are_judged_in_motion_only) {
-  Released machine;
+TEST(tracks_are_judged_in_motion_only, Released machine) {
   machine.inputs.track_speed_mps = {3.0, 3.0};
   machine.run(20);
   assert_false(machine.seen.faults.has(Fault::kTrackSpeedDisagrees));
 }
 
-TEST(what_degraded_goes_on_for_a_second) {
-  Machine machine;
+TEST(what_degraded_goes_on_for_a_second, Machine machine) {
   machine.inputs.degraded.add(Fault::kEngineSpeedMissing);
   assert_slowed_by(Fault::kEngineSpeedMissing, machine.step());
   machine.inputs.degraded = {};

@@ -312,19 +312,13 @@ TEST(what_a_load_holds_is_not_owed) {
   for (const int side : {1, -1}) {
     ServoState servo;
     graben::servo_at_rest(0.5, servo);
-    for (int n = 0; n < 100; ++n) {
-      graben::next_servo(row, side * 0.1, 0.5, kPeriod_s, servo);
-    }
+    repeat(100, [&] { graben::next_servo(row, side * 0.1, 0.5, kPeriod_s, servo); });
     assert_near(servo.integral_m, side * 0.02, 1e-12);
-    for (int n = 0; n < 30; ++n) {
-      graben::next_servo(row, side * 0.1, 0.5, kPeriod_s, servo, side);
-    }
+    repeat(30, [&] { graben::next_servo(row, side * 0.1, 0.5, kPeriod_s, servo, side); });
     assert_near(servo.integral_m, side * 0.02 * std::pow(1.0 - 0.01 / 0.3, 30), 1e-12);
     ServoState back;
     graben::servo_at_rest(0.5, back);
-    for (int n = 0; n < 100; ++n) {
-      graben::next_servo(row, -side * 0.1, 0.5, kPeriod_s, back, side);
-    }
+    repeat(100, [&] { graben::next_servo(row, -side * 0.1, 0.5, kPeriod_s, back, side); });
     assert_near(back.integral_m, -side * 0.02, 1e-12);
   }
   DriveRow learns = row;

@@ -30,23 +30,20 @@ TEST(each_fault_has_its_own_bit) {
   }
 }
 
-TEST(none_is_never_in_it) {
-  FaultSet faults;
+TEST(none_is_never_in_it, FaultSet faults) {
   faults.add(Fault::kNone);
   assert_true(faults.empty());
   assert_false(faults.has(Fault::kNone));
 }
 
 /// A number beyond the last fault's may be in it, from a newer sender; nobody is told of it.
-TEST(an_unknown_number_is_not_named) {
-  FaultSet faults;
+TEST(an_unknown_number_is_not_named, FaultSet faults) {
   faults.add(static_cast<Fault>(kFaultCount));
   assert_int_equal(faults.first(), Fault::kNone);
   assert_int_equal(faults.after(Fault::kSensorError), Fault::kNone);
 }
 
-TEST(sets_are_united) {
-  FaultSet some;
+TEST(sets_are_united, FaultSet some) {
   some.add(Fault::kBusOff);
   some.add(Fault::kStrokeMissing);
   FaultSet others;

@@ -55,12 +55,9 @@ TEST(no_pump_is_planned_with_that_gives_next_to_nothing) {
   assert_near(after(raising_mps(1.0), 0.0, 2.0).share, 0.8, 0.0);
 }
 
-TEST(what_was_not_commanded_does_not_count) {
-  FlowSituation now;
+TEST(what_was_not_commanded_does_not_count, FlowSituation now) {
   now.due_mps[kBladeLift] = raising_mps(1.0);
   FlowShareState state;
-  for (int n = 0; n < 100; ++n) {
-    state = next_flow_share(profile(), state, now, kPeriod_s);
-  }
+  repeat(100, [&] { state = next_flow_share(profile(), state, now, kPeriod_s); });
   assert_near(state.share, FlowShareState{}.share, 0.0);
 }

@@ -108,8 +108,7 @@ TEST(at_its_bound_it_is_sound) {
 }
 
 /// What is beside the drives that there are is not looked at.
-TEST(only_its_drives_are_watched) {
-  Watched watched;
+TEST(only_its_drives_are_watched, Watched watched) {
   const DriveRow rows[] = {watched.row, watched.row};
   const ValidDrive seen[] = {watched.seen, watched.seen};
   FlowState states[2];
@@ -131,8 +130,7 @@ TEST(what_runs_ahead_of_its_oil_is_wrong) {
 }
 
 /// Slower than what 10 s forget it never adds up.
-TEST(leakage_is_forgotten) {
-  Watched watched;
+TEST(leakage_is_forgotten, Watched watched) {
   watched.seen.spool_ratio = 0.0;
   assert_int_equal(watched.until(Fault::kMotionImplausible, -0.0007, 20000), 0);
   Watched faster;
@@ -141,13 +139,10 @@ TEST(leakage_is_forgotten) {
 }
 
 /// Without a new stroke nothing is compared; with the next one all of it is.
-TEST(lost_frames_are_waited_for) {
-  Watched watched;
+TEST(lost_frames_are_waited_for, Watched watched) {
   static_cast<void>(watched.step());
   watched.seen.stroke_is_new = false;
-  for (int n = 0; n < 100; ++n) {
-    assert_true(watched.step().empty());
-  }
+  repeat(100, [&] { assert_true(watched.step().empty()); });
   watched.seen.stroke_is_new = true;
   assert_true(watched.step().has(Fault::kMotionImplausible));
 }
@@ -286,11 +281,8 @@ TEST(steps_and_rails_say_nothing) {
 }
 
 /// What it was off before stays where one cycle says nothing; not where the load is lost.
-TEST(a_gap_forgets_only_what_it_must) {
-  Watched watched;
-  for (int n = 0; n < 4; ++n) {
-    static_cast<void>(watched.step());
-  }
+TEST(a_gap_forgets_only_what_it_must, Watched watched) {
+  repeat(4, [&] { static_cast<void>(watched.step()); });
   const double behind_m = watched.state.behind_m;
   assert_true(behind_m > 0.0 && watched.state.extend_m > 0.0);
   watched.seen.rod_pressure_pa = 15e6;
@@ -305,8 +297,7 @@ TEST(a_gap_forgets_only_what_it_must) {
   assert_false(watched.state.begun);
 }
 
-TEST(without_spool_or_load_nothing_is_checked) {
-  Watched no_spool;
+TEST(without_spool_or_load_nothing_is_checked, Watched no_spool) {
   no_spool.row.watch.senses_spool = false;
   assert_int_equal(no_spool.until(Fault::kStrokeStuck, 0.0), 0);
   Watched no_load;
@@ -323,11 +314,8 @@ TEST(without_spool_or_load_nothing_is_checked) {
 }
 
 /// The spool's frame comes every second cycle: the widest of two counts.
-TEST(the_last_cycle_counts_too) {
-  Watched watched;
-  for (int n = 0; n < 3; ++n) {
-    static_cast<void>(watched.step());
-  }
+TEST(the_last_cycle_counts_too, Watched watched) {
+  repeat(3, [&] { static_cast<void>(watched.step()); });
   const double behind_m = watched.state.behind_m;
   const double most_mps = watched.most_mps();
   watched.seen.spool_ratio = 0.0;
@@ -363,8 +351,7 @@ TEST(a_spool_told_by_its_pilot_comes_later) {
 }
 
 /// What is not learnt yet is left room for.
-TEST(a_valve_that_is_not_learnt_is_given_more_time) {
-  Watched known;
+TEST(a_valve_that_is_not_learnt_is_given_more_time, Watched known) {
   Watched fresh;
   fresh.valve = LearntValve{};
   const int sooner = known.until(Fault::kStrokeStuck, 0.0);

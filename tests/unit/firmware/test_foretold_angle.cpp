@@ -16,8 +16,7 @@ Signal<double> shown(double angle_rad, TimeUs at_us) {
   return {angle_rad, Validity::kValid, at_us};
 }
 
-TEST(what_turns_evenly_is_where_it_is) {
-  ForetoldAngle state;
+TEST(what_turns_evenly_is_where_it_is, ForetoldAngle state) {
   for (TimeUs at_us = 0; at_us < 10 * kPeriod; at_us += kPeriod) {
     const double time_s = static_cast<double>(at_us) / kSecondUs;
     const Signal<double> ahead =
@@ -48,8 +47,7 @@ TEST(what_swings_lags_little) {
   assert_in_range(static_cast<int>(1e3 * most_ahead), 10, 150);
 }
 
-TEST(a_reading_that_does_not_come_changes_nothing) {
-  ForetoldAngle state;
+TEST(a_reading_that_does_not_come_changes_nothing, ForetoldAngle state) {
   static_cast<void>(foretold(shown(0.00, 0), kLatency_s, state));
   static_cast<void>(foretold(shown(0.01, kPeriod), kLatency_s, state));
   const double once = foretold(shown(0.02, 2 * kPeriod), kLatency_s, state).value;
@@ -57,8 +55,7 @@ TEST(a_reading_that_does_not_come_changes_nothing) {
   assert_near(foretold(shown(0.02, 2 * kPeriod), kLatency_s, state).value, once, 0.0);
 }
 
-TEST(what_is_not_known_is_as_it_is_shown) {
-  ForetoldAngle state;
+TEST(what_is_not_known_is_as_it_is_shown, ForetoldAngle state) {
   static_cast<void>(foretold(shown(0.0, 0), kLatency_s, state));
   static_cast<void>(foretold(shown(0.1, kPeriod), kLatency_s, state));
   // After a gap.
@@ -70,8 +67,7 @@ TEST(what_is_not_known_is_as_it_is_shown) {
   assert_near(foretold(shown(0.7, 13 * kPeriod), kLatency_s, state).value, 0.7, 0.0);
 }
 
-TEST(what_comes_in_time_stays) {
-  ForetoldAngle state;
+TEST(what_comes_in_time_stays, ForetoldAngle state) {
   for (TimeUs at_us = 0; at_us < 5 * kPeriod; at_us += kPeriod) {
     const double angle_rad = 1e-7 * static_cast<double>(at_us);
     assert_near(foretold(shown(angle_rad, at_us), 0.0, state).value, angle_rad, 0.0);

@@ -103,8 +103,7 @@ TEST(changes_are_limited_in_rate) {
 }
 
 /// Towards neutral a spool goes at once; a reversal opens from neutral.
-TEST(closing_is_never_delayed) {
-  GateState open;
+TEST(closing_is_never_delayed, GateState open) {
   open.opening = {Guarded(1.0), Guarded(-1.0), Guarded(1.0)};
   const double step = profile().control.spool_rate_ps * 0.01;
   const Gated result = gate(profile(), open, true, {0.1 * travel(), 0.0, -travel()}, 0.01);
@@ -141,8 +140,7 @@ TEST(closed_is_duty_zero) {
 }
 
 /// Neutral knows no rate: not active closes everything in the same cycle.
-TEST(not_active_is_neutral_at_once) {
-  GateState open;
+TEST(not_active_is_neutral_at_once, GateState open) {
   open.opening = {Guarded(1.0), Guarded(-1.0), Guarded(0.5)};
   const Gated result = gate(profile(), open, false, {travel(), travel(), travel()}, 0.01);
   assert_false(result.enable);
@@ -204,8 +202,7 @@ struct Tried {
 };
 
 /// No table, no threshold: nothing is known of the valve.
-TEST(duties_that_are_tried_pass_as_they_are) {
-  Tried tried;
+TEST(duties_that_are_tried_pass_as_they_are, Tried tried) {
   const GateResult result = tried.step({0.001, -0.1, 0.9, 0.9});
   assert_true(result.enable);
   assert_int_equal(result.fault, Fault::kNone);
@@ -221,8 +218,7 @@ TEST(duties_that_are_tried_pass_as_they_are) {
 }
 
 /// A quarter a cycle, so that a step is one; down at once, through zero as from zero.
-TEST(duties_that_are_tried_may_step) {
-  Tried tried;
+TEST(duties_that_are_tried_may_step, Tried tried) {
   static_cast<void>(tried.step({0.6, -0.6, 0.2}, 0.01));
   assert_near(tried.duty_ratio[0], 0.25, 1e-12);
   assert_near(tried.duty_ratio[1], -0.25, 1e-12);
@@ -235,8 +231,7 @@ TEST(duties_that_are_tried_may_step) {
   assert_near(tried.duty_ratio[1], -0.5, 1e-12);
 }
 
-TEST(duties_that_are_tried_are_refused_as_others) {
-  Tried passive;
+TEST(duties_that_are_tried_are_refused_as_others, Tried passive) {
   passive.duty_ratio.fill(0.5);
   assert_false(passive.step({0.5, 0.5, 0.5}, kLong_s, false).enable);
   assert_near(passive.duty_ratio[0], 0.0, 0.0);
@@ -252,8 +247,7 @@ TEST(duties_that_are_tried_are_refused_as_others) {
 }
 
 /// Neutral needs nothing of what is stored.
-TEST(a_flipped_bit_does_not_matter_at_rest) {
-  GateState open;
+TEST(a_flipped_bit_does_not_matter_at_rest, GateState open) {
   test::flip_bit(open.opening[1], 3);
   const Gated result = gate(profile(), open, false, {0.0, 0.0, 0.0}, 0.01);
   assert_int_equal(result.fault, Fault::kNone);

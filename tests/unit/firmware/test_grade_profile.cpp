@@ -74,8 +74,7 @@ TEST(the_error_is_along_the_normal) {
   assert_near(grade_error_m(profile, 30.0, below_m), -0.08, 1e-12);
 }
 
-TEST(a_design_without_points_is_the_plane) {
-  GradeDesign empty;
+TEST(a_design_without_points_is_the_plane, GradeDesign empty) {
   empty.plane_height_m = 2.0;
   assert_near(GradeProfile(empty).at(7.0).height_m, 2.0, 0.0);
 }

@@ -117,9 +117,7 @@ TEST(on_a_plane_it_stands_along_it) {
     plane.plane_height_m = 0.7;
     const GradeProfile design(plane);
     Stand stand{0.7 + 50.0 * slope, 0.0};
-    for (int n = 0; n < 5; ++n) {
-      stand = stand_at(body(), GroundMap(), design, 50.0, stand);
-    }
+    repeat(5, [&] { stand = stand_at(body(), GroundMap(), design, 50.0, stand); });
     // The tilted springs' load leans to the lower end.
     assert_near(stand.pitch_rad, std::atan(slope), 0.02);
     assert_near(stand.height_m, 0.7 + 50.0 * slope, 0.02);
@@ -179,15 +177,12 @@ TEST(a_design_out_of_reach_is_named_where_it_is) {
 TEST(without_wheels_below_it_comes_down) {
   const GradeProfile design(test::level(0.0));
   Stand stand{3.0, 0.5};
-  for (int n = 0; n < 30; ++n) {
-    stand = stand_at(body(), GroundMap(), design, 0.0, stand);
-  }
+  repeat(30, [&] { stand = stand_at(body(), GroundMap(), design, 0.0, stand); });
   assert_near(stand.height_m, 0.0, 1e-6);
   assert_near(stand.pitch_rad, 0.0, 1e-6);
 }
 
-TEST(noise_of_the_position_is_left_behind) {
-  PositionState state;
+TEST(noise_of_the_position_is_left_behind, PositionState state) {
   double largest_m = 0.0;
   for (int n = 0; n < 400; ++n) {
     const double true_m = 0.012 * n;

@@ -45,8 +45,7 @@ TEST(wiped_memory_is_found) {
   }
 }
 
-TEST(what_is_stored_is_read) {
-  Guarded<double> guarded;
+TEST(what_is_stored_is_read, Guarded<double> guarded) {
   assert_true(guarded.intact());
   assert_near(guarded.value(), 0.0, 0.0);
   guarded = -0.25;

@@ -99,9 +99,7 @@ TEST(what_stands_shows_no_missing_flow) {
     next_oil(gains, modes, seen, true, true, state);
     seen.asked_mps = {0.05, 0.02};
     seen.expected_mps = seen.asked_mps;
-    for (int n = 0; n < 100; ++n) {
-      next_oil(gains, modes, seen, true, true, state);
-    }
+    repeat(100, [&] { next_oil(gains, modes, seen, true, true, state); });
     return state;
   };
   assert_true(after(false).flow_error_mps[0] < -0.02);

@@ -96,8 +96,7 @@ TEST(the_integral_makes_up_for_losses) {
 
 /// The usual lag behind a speed that falls, of oil and ground, is nothing to be made up for: the
 /// machine would brake harder than it is told to.
-TEST(the_lag_of_oil_is_not_made_up_for) {
-  TrackState state;
+TEST(the_lag_of_oil_is_not_made_up_for, TrackState state) {
   state.last_wanted_mps = 1.6;
   state.expected_mps = 1.6;
   double measured_mps = 1.6;
@@ -115,10 +114,7 @@ TEST(the_lag_of_oil_is_not_made_up_for) {
 }
 
 /// What can't be had must not wind up.
-TEST(out_of_reach_the_integral_stands_still) {
-  TrackState state;
-  for (int n = 0; n < 1000; ++n) {
-    state = control_track(profile(), state, 5.0, 1.6, 157.08, 0.01).state;
-  }
+TEST(out_of_reach_the_integral_stands_still, TrackState state) {
+  repeat(1000, [&] { state = control_track(profile(), state, 5.0, 1.6, 157.08, 0.01).state; });
   assert_near(state.integral_mps, 0.0, 0.0);
 }

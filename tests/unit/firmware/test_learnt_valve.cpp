@@ -61,9 +61,7 @@ struct Bench {
   }
   /// Speed that it is then off at this one, of the asked speed.
   double off(double asked_mps) {
-    for (int n = 0; n < 50; ++n) {
-      step(asked_mps);
-    }
+    repeat(50, [&] { step(asked_mps); });
     const double from_m = stroke_m;
     step(asked_mps);
     return (stroke_m - from_m) / kPeriod_s / asked_mps - 1.0;
@@ -128,8 +126,7 @@ TEST(a_dead_band_is_learnt_on_its_own_side) {
 }
 
 /// An opening counts from the dead band's end, what is told is of the whole travel.
-TEST(an_edge_is_told_in_travel) {
-  Bench bench;
+TEST(an_edge_is_told_in_travel, Bench bench) {
   bench.valve.extend.edge = -0.05;
   assert_near(learnt_edge_ratio(bench.row, bench.valve, true), -0.05 * (1.0 - kEdge), 1e-12);
 }
@@ -148,8 +145,7 @@ TEST(an_exponent_is_learnt) {
 }
 
 /// It is learnt, too, where nothing is done with it.
-TEST(what_is_not_used_is_learnt_as_well) {
-  Bench bench;
+TEST(what_is_not_used_is_learnt_as_well, Bench bench) {
   bench.corrected = false;
   bench.extend.edge = 0.23;
   bench.work(20.0, 1.0);
@@ -217,8 +213,7 @@ TEST(what_is_believed_stays_within_bounds) {
   }
 }
 
-TEST(still_and_without_time_nothing_breaks) {
-  Bench bench;
+TEST(still_and_without_time_nothing_breaks, Bench bench) {
   ValidDrive seen;
   for (const double period_s : {0.0, 0.01}) {
     for (const double spool : {0.0, kEdge, 1.0, -1.0}) {
@@ -255,8 +250,7 @@ TEST(duties_rise_and_turn_back) {
 }
 
 /// Little is known of openings that were not used.
-TEST(the_spread_is_less_where_it_worked) {
-  Bench bench;
+TEST(the_spread_is_less_where_it_worked, Bench bench) {
   const double before = opening_spread(bench.valve.extend, 0.3);
   bench.work(8.0, 1.0);
   assert_true(opening_spread(bench.valve.extend, 0.3) < 0.4 * before);
@@ -265,8 +259,7 @@ TEST(the_spread_is_less_where_it_worked) {
 }
 
 /// A valve that is as its two tables say is nothing to learn, one that is not is off on its side.
-TEST(what_is_learnt_is_beyond_its_sides_table) {
-  DriveRow row;
+TEST(what_is_learnt_is_beyond_its_sides_table, DriveRow row) {
   row.answer = test::two_sides();
   LearntValve valve;
   assert_near(learnt_duty(row, valve, 0.25), 0.5, 1e-12);
@@ -280,8 +273,7 @@ TEST(what_is_learnt_is_beyond_its_sides_table) {
 }
 
 /// A command is compared when its side has answered it, spool by the table of its side.
-TEST(each_side_has_its_own_lag) {
-  DriveRow row;
+TEST(each_side_has_its_own_lag, DriveRow row) {
   row.answer = test::two_sides();
   for (const double way : {1.0, -1.0}) {
     LearntValve valve;
@@ -305,9 +297,7 @@ Bench motor() {
 
 /// Speed of a motor that was asked for this one for so long.
 double speed_after_mps(Bench& bench, double asked_mps, double seconds) {
-  for (int n = 0; n < static_cast<int>(100.0 * seconds); ++n) {
-    bench.step(asked_mps);
-  }
+  repeat(static_cast<int>(100.0 * seconds), [&] { bench.step(asked_mps); });
   const double from_m = bench.stroke_m;
   bench.step(asked_mps);
   return (bench.stroke_m - from_m) / kPeriod_s;
@@ -356,9 +346,7 @@ TEST(a_motor_that_jumps_off_has_an_earlier_edge) {
   assert_true(edge < -0.005 && edge >= -0.07);
   Bench driven = motor();
   driven.extend.edge = 0.15;
-  for (int n = 0; n < 200; ++n) {
-    driven.step(0.1);
-  }
+  repeat(200, [&] { driven.step(0.1); });
   const double before = driven.valve.extend.edge;
   static_cast<void>(speed_after_mps(driven, 0.0012, 1.0));
   assert_near(driven.valve.extend.edge, before, 0.0);

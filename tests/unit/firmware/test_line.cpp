@@ -142,8 +142,7 @@ TEST(way_of_a_turn_on_the_spot) {
   assert_near(way_m(machine(), line_between(machine(), from, far)), 5.0, 1e-12);
 }
 
-TEST(distance_from_a_line_and_from_a_turn_on_the_spot) {
-  TeethLine line;
+TEST(distance_from_a_line_and_from_a_turn_on_the_spot, TeethLine line) {
   line.from.position_m = {1.0, 2.0, 3.0};
   line.change.position_m = {0.0, 4.0, 0.0};
   assert_near(line_distance_m(line, {4.0, 9.0, 7.0}), 5.0, 1e-12);

@@ -82,8 +82,7 @@ TEST(stands) {
   }
 }
 
-TEST(learns_its_bias_at_rest) {
-  Body body;
+TEST(learns_its_bias_at_rest, Body body) {
   body.bias_radps = 3e-3;
   body.noise = 1.0;
   LinkAngle state;
@@ -97,8 +96,7 @@ TEST(learns_its_bias_at_rest) {
   assert_true(rested.bias_variance < moving.bias_variance);
 }
 
-TEST(its_own_acceleration_is_no_tilt) {
-  Body body;
+TEST(its_own_acceleration_is_no_tilt, Body body) {
   body.swing_rad = 0.3;
   LinkAngle state;
   assert_true(worst_rad(body, 1.0, 20.0, false, true, state) < 5e-4);
@@ -124,8 +122,7 @@ TEST(deviation_holds) {
   assert_in_range(outside, 0, 6);
 }
 
-TEST(looks_ahead) {
-  Body body;
+TEST(looks_ahead, Body body) {
   body.swing_rad = 0.3;
   LinkAngle state;
   static_cast<void>(worst_rad(body, 0.0, 5.0, false, true, state));
@@ -135,8 +132,7 @@ TEST(looks_ahead) {
   assert_true(std::abs(body.angle(last_s + 0.02) - body.angle(last_s)) > 5e-3);
 }
 
-TEST(a_stuck_sensor_contradicts) {
-  Body body;
+TEST(a_stuck_sensor_contradicts, Body body) {
   LinkAngle state;
   begin_angle(kNoise, body.reading(0.0), state);
   AngleReading stuck = body.reading(0.0);
@@ -153,8 +149,7 @@ TEST(a_stuck_sensor_contradicts) {
   assert_in_range(cycles, 20, 300);
 }
 
-TEST(blows_are_no_tilt) {
-  Body body;
+TEST(blows_are_no_tilt, Body body) {
   LinkAngle state;
   begin_angle(kNoise, body.reading(0.0), state);
   for (int i = 1; i < 500; ++i) {
@@ -170,8 +165,7 @@ TEST(blows_are_no_tilt) {
   assert_near(state.angle_rad, body.angle(5.0), 5e-3);
 }
 
-TEST(falls_without_direction) {
-  LinkAngle state;
+TEST(falls_without_direction, LinkAngle state) {
   AngleReading reading;
   reading.period_s = kPeriod_s;
   begin_angle(kNoise, reading, state);

@@ -43,8 +43,7 @@ TEST(return_gallery_balances) {
 }
 
 /// Without regeneration and leakage the balance is a straight line: s = (flow - demand) / c_by.
-TEST(pump_pressure_in_closed_form) {
-  FlowBalance balance;
+TEST(pump_pressure_in_closed_form, FlowBalance balance) {
   balance.flow_m3ps = 2e-3;
   balance.in_flow_m3ps = 5e-4;
   balance.least_flow_m3ps = 5e-4;

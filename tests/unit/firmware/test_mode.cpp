@@ -24,8 +24,7 @@ EcuMode after(EcuMode mode, const ModeRequest& request) {
   return next_mode({mode, Fault::kNone}, request).mode;
 }
 
-TEST(motion_needs_every_step) {
-  ModeState state;
+TEST(motion_needs_every_step, ModeState state) {
   assert_int_equal(state.mode, EcuMode::kSilent);
   state = next_mode(state, asks(false));
   assert_int_equal(state.mode, EcuMode::kReady);
@@ -204,8 +203,7 @@ TEST(each_fault_has_its_bit) {
   assert_int_equal(why(EcuMode::kSilent, ready, all), all_bits);
 }
 
-TEST(in_motion_nothing_is_in_the_way) {
-  FaultSet slowing;
+TEST(in_motion_nothing_is_in_the_way, FaultSet slowing) {
   slowing.add(Fault::kPressureMissing);
   ModeRequest moving = asks(true);
   moving.centred = false;

@@ -235,8 +235,7 @@ TEST(sliding_along_a_plane_does_not_chatter) {
 }
 
 /// Heights that are seen too high let a design seem as much farther off than it is.
-TEST(a_design_lies_where_the_ground_was_felt) {
-  FenceSet fences;
+TEST(a_design_lies_where_the_ground_was_felt, FenceSet fences) {
   const DriveVector at(0.475, 0.565, 0.4375, 0.0);
   const double teeth_z_m =
       machine()

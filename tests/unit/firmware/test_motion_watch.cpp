@@ -42,9 +42,7 @@ struct Cylinder {
   bool stuck() { return step().has(Fault::kStrokeStuck); }
   /// At rest until the time to settle is over.
   void settle() {
-    for (int n = 0; n < 20; ++n) {
-      assert_true(step().empty());
-    }
+    repeat(20, [&] { assert_true(step().empty()); });
   }
 };
 
@@ -146,9 +144,7 @@ TEST(forgetting_takes_seconds) {
   for (const bool soon : {true, false}) {
     Cylinder cylinder = settled(0.0);
     cylinder.stroke_m += 0.05;
-    for (int n = 0; n < (soon ? 16 : 960); ++n) {
-      assert_false(cylinder.uncommanded());
-    }
+    repeat((soon ? 16 : 960), [&] { assert_false(cylinder.uncommanded()); });
     cylinder.stroke_m += 0.05;
     assert_int_equal(cylinder.uncommanded(), soon);
   }
@@ -166,9 +162,7 @@ TEST(a_stroke_that_stands_still_is_stuck) {
     for (const double sign : {1.0, -1.0}) {
       Cylinder cylinder = settled(sign * kOpen, axis);
       cylinder.asked_mps = sign * 0.125;
-      for (int n = 0; n < 8; ++n) {
-        assert_false(cylinder.stuck());
-      }
+      repeat(8, [&] { assert_false(cylinder.stuck()); });
       assert_true(cylinder.stuck());
       assert_true(cylinder.stuck());
       cylinder.stroke_m += sign * 0.002;
@@ -184,9 +178,7 @@ TEST(only_what_is_asked_and_led_can_be_stuck) {
   for (const auto& row : rows) {
     Cylinder cylinder = settled(row[0]);
     cylinder.asked_mps = row[1];
-    for (int n = 0; n < 100; ++n) {
-      assert_false(cylinder.stuck());
-    }
+    repeat(100, [&] { assert_false(cylinder.stuck()); });
   }
 }
 

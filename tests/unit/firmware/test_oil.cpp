@@ -248,9 +248,7 @@ TEST(the_weight_moves_slowly_and_ends_with_a_fault) {
   next_oil(gains, modes, seen, false, true, state);
   next_oil(gains, modes, seen, true, true, state);
   assert_near(state.weight, 0.02, 1e-12);
-  for (int n = 0; n < 100; ++n) {
-    next_oil(gains, modes, seen, true, true, state);
-  }
+  repeat(100, [&] { next_oil(gains, modes, seen, true, true, state); });
   assert_near(state.weight, 1.0, 0.0);
   next_oil(gains, modes, seen, true, false, state);
   assert_near(state.weight, 0.98, 1e-12);

@@ -137,8 +137,7 @@ TEST(shortfall_is_the_margin_at_full_speed) {
 
 /// Remark 3: a check valve in the in-flow line takes A_in (lambda Q_in / c)^2 of the force; at the
 /// limit of travel what is left is what full opening needs.
-TEST(in_flow_check_valve_takes_its_force) {
-  McvInput input;
+TEST(in_flow_check_valve_takes_its_force, McvInput input) {
   input.velocity_mps = {0.0, 0.0, 0.3};
   input.cap_pressure_pa = {0.0, 0.0, 6e6};
   input.pump_flow_m3ps = {4e-3, 4e-3};

@@ -121,8 +121,7 @@ TEST(a_blade_that_comes_down_leaves_nothing) {
 }
 
 /// 10 mm of noise on 18 mm that stay.
-TEST(noise_is_no_ground_that_is_left) {
-  PassState state;
+TEST(noise_is_no_ground_that_is_left, PassState state) {
   for (int n = 0; n < 1000; ++n) {
     const double error_m = 0.018 + (n % 2 == 0 ? 0.01 : -0.01);
     state = next_pass(design(), state, {0.01 * n, error_m, 1.0, 0.0, 0.0}, kPeriod_s);
@@ -145,8 +144,7 @@ TEST(two_passes_that_lower_nothing_are_the_last) {
   assert_int_equal(lower.vain, 0);
 }
 
-TEST(there_are_no_more_than_are_allowed) {
-  PassState state;
+TEST(there_are_no_more_than_are_allowed, PassState state) {
   for (int pass = 1; pass < 4; ++pass) {
     state = goes(state, 0.0, 10.01, 0.1 / pass);
     state = stands(state, 10.2, 200);

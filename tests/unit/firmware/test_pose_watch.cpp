@@ -56,8 +56,7 @@ int cycles_to(double each, double most, double forget_s) {
   return 0;
 }
 
-TEST(what_fits_is_well) {
-  Body body;
+TEST(what_fits_is_well, Body body) {
   body.valid.climb_mps = std::tan(0.2);
   body.valid.pitch_rad = 0.2;
   body.speeds = {1.0 / std::cos(0.2), 1.0 / std::cos(0.2), 1.0 / std::cos(0.2)};
@@ -65,8 +64,7 @@ TEST(what_fits_is_well) {
 }
 
 /// Nothing is known of what was before: a machine that stands anywhere begins well.
-TEST(the_first_cycle_is_well) {
-  Body body;
+TEST(the_first_cycle_is_well, Body body) {
   body.valid.position_m = 1000.0;
   body.valid.height_m = -30.0;
   body.valid.pitch_rad = 0.5;
@@ -268,8 +266,7 @@ TEST(one_source_that_agrees_is_enough) {
 
 /// Tracks that run against each other, as far from the body as the transmission: always the same
 /// one speaks, or the residual would come and go.
-TEST(of_sources_as_far_off_the_transmission_counts) {
-  Body body;
+TEST(of_sources_as_far_off_the_transmission_counts, Body body) {
   body.valid.velocity_mps = 0.0;
   body.speeds = {-1.0, -1.0, 1.0};
   body.step();
@@ -303,8 +300,7 @@ TEST(the_most_itself_is_well) {
 }
 
 /// Along a slope the tracks run faster than x grows.
-TEST(speed_is_that_along_the_ground) {
-  Body body;
+TEST(speed_is_that_along_the_ground, Body body) {
   body.valid.pitch_rad = 0.75;
   body.valid.climb_mps = std::tan(0.75);
   const double along_mps = 1.0 / std::cos(0.75);
@@ -316,16 +312,14 @@ TEST(speed_is_that_along_the_ground) {
   assert_int_equal(body.cycles_until_seen([](DozerValid&) {}), 0);
 }
 
-TEST(no_number_does_not_fit) {
-  Body body;
+TEST(no_number_does_not_fit, Body body) {
   body.step();
   body.valid.velocity_mps = std::numeric_limits<double>::quiet_NaN();
   assert_true(body.step());
 }
 
 /// A long cycle forgets all at most.
-TEST(a_long_cycle_forgets) {
-  Body body;
+TEST(a_long_cycle_forgets, Body body) {
   body.step();
   body.state.ahead_m = body.state.climbed_m = body.state.turned_rad = body.state.yawed_rad =
       body.state.uphill_m = body.state.slipped_m = 1.0;

@@ -134,11 +134,8 @@ TEST(to_and_fro_adds_up_and_trembling_does_not) {
   });
 }
 
-TEST(a_cylinder_at_rest_has_one_pressure) {
-  Chamber chamber;
-  for (int n = 0; n < 1000; ++n) {
-    assert_false(chamber.wrong());
-  }
+TEST(a_cylinder_at_rest_has_one_pressure, Chamber chamber) {
+  repeat(1000, [&] { assert_false(chamber.wrong()); });
 }
 
 /// A chamber without oil has one pressure for long, whatever its sensor's zero.

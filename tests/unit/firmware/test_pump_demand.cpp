@@ -76,8 +76,7 @@ TEST(the_needed_flow_is_enough_and_no_more) {
 }
 
 /// Where nothing moves, nothing is needed but what the bypass takes without pressure.
-TEST(at_rest_nothing_is_needed) {
-  McvInput input;
+TEST(at_rest_nothing_is_needed, McvInput input) {
   input.cap_pressure_pa.fill(8e6);
   for (const double flow_m3ps : needed_flow_m3ps(valve(), input, {1.0, kReserve_n, 0.6, 33e6})) {
     assert_near(flow_m3ps, 0.0, 0.0);
@@ -85,8 +84,7 @@ TEST(at_rest_nothing_is_needed) {
 }
 
 /// What a line is asked for ends where its relief valve opens.
-TEST(the_pressure_has_an_end) {
-  McvInput input;
+TEST(the_pressure_has_an_end, McvInput input) {
   input.velocity_mps[kBoom] = 0.1;
   input.cap_pressure_pa[kBoom] = 35e6;
   const double most_m3ps = needed_flow_m3ps(valve(), input, {1.0, kReserve_n, 0.6, 33e6})[1];
@@ -114,9 +112,7 @@ struct Digging {
                      demand);
   }
   double settled(unsigned pump) {
-    for (int cycle = 0; cycle < 2000; ++cycle) {
-      step();
-    }
+    repeat(2000, [&] { step(); });
     return demand.swash_ratio[pump];
   }
 };
@@ -151,8 +147,7 @@ TEST(the_swash_goes_by_what_is_needed) {
 }
 
 /// Up fast, down slowly.
-TEST(it_changes_no_faster_than_it_should) {
-  Digging digging;
+TEST(it_changes_no_faster_than_it_should, Digging digging) {
   digging.input.cap_pressure_pa.fill(34e6);
   const double start = digging.demand.swash_ratio[0];
   digging.step();
@@ -164,8 +159,7 @@ TEST(it_changes_no_faster_than_it_should) {
 }
 
 /// At full load both pumps together take what the engine can give, no more.
-TEST(the_engine_is_not_asked_for_more_than_it_has) {
-  Digging rock;
+TEST(the_engine_is_not_asked_for_more_than_it_has, Digging rock) {
   rock.input.cap_pressure_pa.fill(34e6);
   rock.line_pa.fill(30e6);
   rock.profile.demand_swash.most_power_w = 120e3;

@@ -141,8 +141,7 @@ void check_first_change(const CircuitAxis& axis, const FlowBalance& line, bool t
   }
 }
 
-TEST(first_change_is_the_first) {
-  Counted counted;
+TEST(first_change_is_the_first, Counted counted) {
   for_random_circuits([&](const McvCircuit& circuit) {
     for (unsigned i = 0; i < circuit.axis_count; ++i) {
       const CircuitAxis& axis = circuit.axis[i];

@@ -65,16 +65,12 @@ TEST(a_lasting_lag_is_learnt) {
                               kPeriod_s);
   };
   ExcavatorServo servo = servo_at_rest(strokes_m);
-  for (int n = 0; n < 100; ++n) {
-    servo = next(servo, false);
-  }
+  repeat(100, [&] { servo = next(servo, false); });
   // 1 s of 1 /s2 of 2 mm.
   assert_true((of(servo, &ServoState::bias_mps) - DriveVector(0.002, -0.002, 0.0, 0.002)).norm() <
               1e-9);
   assert_near(of(next(servo, true), &ServoState::bias_mps)[0], kPeriod_s * 0.002, 1e-9);
-  for (int n = 0; n < 400; ++n) {
-    servo = next(servo, false);
-  }
+  repeat(400, [&] { servo = next(servo, false); });
   assert_true((of(servo, &ServoState::bias_mps) - DriveVector(0.004, -0.004, 0.0, 0.004)).norm() <
               1e-12);
   assert_true(
@@ -125,9 +121,7 @@ TEST(the_load_is_low_passed) {
   std::array<LoadState, 2> load{};
   next_loads(0.1, low, kPeriod_s, true, load);
   assert_near(load[1].rod_pa, 5e6, 0.0);
-  for (int n = 0; n < 10; ++n) {
-    next_loads(0.1, high, kPeriod_s, false, load);
-  }
+  repeat(10, [&] { next_loads(0.1, high, kPeriod_s, false, load); });
   for (unsigned i = 0; i < 2; ++i) {
     assert_near(load[i].cap_pa, low[i].cap_pressure_pa * (2.0 - std::exp(-1.0)), 1e-6);
     assert_near(load[i].rod_pa, low[i].rod_pressure_pa * (2.0 - std::exp(-1.0)), 1e-6);

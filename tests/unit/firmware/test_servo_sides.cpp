@@ -71,9 +71,7 @@ TEST(a_drive_as_expected_is_not_behind) {
     }
     const double predicted_m = stroke_then_m(bench.row, bench.servo);
     assert_true(std::abs(predicted_m - bench.stroke_m) > 1e-3);
-    for (int n = 0; n < 300; ++n) {
-      bench.step(0.0);
-    }
+    repeat(300, [&] { bench.step(0.0); });
     assert_near(bench.stroke_m, predicted_m, 1e-9);
     assert_near(bench.servo.under_way_m, 0.0, 1e-9);
   }
@@ -83,9 +81,7 @@ TEST(a_drive_as_expected_is_not_behind) {
 TEST(times_changed_over_are_found) {
   Bench bench(test::two_sides());
   bench.row.answer = turned(test::two_sides());
-  for (int n = 0; n < 100; ++n) {
-    bench.step(0.1);
-  }
+  repeat(100, [&] { bench.step(0.1); });
   // 0.15 s and 60 ms of lag more than expected.
   assert_near(bench.servo.integral_m, 0.1 * (0.15 + 0.06), 2e-4);
 }

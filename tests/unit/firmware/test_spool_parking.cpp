@@ -48,8 +48,7 @@ TEST(large_corrections_and_the_path_pass) {
 }
 
 /// One reversal alone is not held up, and one that waits stands until its sign is back.
-TEST(only_the_second_one_waits) {
-  ParkingState state;
+TEST(only_the_second_one_waits, ParkingState state) {
   assert_false(park(0.0, 0.01, kPeriod_s, state));
   assert_int_equal(state.side, 1);
   assert_true(park(0.0, -0.01, kPeriod_s, state));
@@ -60,11 +59,8 @@ TEST(only_the_second_one_waits) {
 }
 
 /// What has not reversed for long does at once.
-TEST(calm_forgets) {
-  ParkingState state;
-  for (int n = 0; n < 2000; ++n) {
-    static_cast<void>(park(0.0, 0.01, kPeriod_s, state));
-  }
+TEST(calm_forgets, ParkingState state) {
+  repeat(2000, [&] { static_cast<void>(park(0.0, 0.01, kPeriod_s, state)); });
   assert_false(park(0.0, -0.001, kPeriod_s, state));
   assert_int_equal(state.side, -1);
 }
@@ -81,8 +77,7 @@ TEST(it_waits_within_the_dead_band_that_was_learnt) {
   assert_near(parked_duty(row, valve, 0), 0.0, 0.0);
 }
 
-TEST(each_side_has_its_own_edge) {
-  DriveRow row;
+TEST(each_side_has_its_own_edge, DriveRow row) {
   row.answer = test::two_sides();
   LearntValve valve;
   assert_near(parked_duty(row, valve, 1), 0.7 * 0.4, 1e-12);

@@ -57,9 +57,7 @@ struct Valve {
   void settle(double duty) {
     sent.duty_ratio = {duty, duty, duty};
     all_at(valid, duty);
-    for (int n = 0; n < CommandHistory::kMostCycles; ++n) {
-      assert_false(stuck());
-    }
+    repeat(CommandHistory::kMostCycles, [&] { assert_false(stuck()); });
   }
 };
 
@@ -86,8 +84,7 @@ TEST(the_tolerance_is_a_sharp_edge) {
 }
 
 /// One frame that is wrong, twice seen because frames come every second cycle, is not enough.
-TEST(it_must_be_wrong_in_a_row) {
-  Valve valve;
+TEST(it_must_be_wrong_in_a_row, Valve valve) {
   valve.settle(0.0);
   for (int round = 0; round < 5; ++round) {
     valve.valid.drive[1].spool_ratio = 0.5;
@@ -100,16 +97,13 @@ TEST(it_must_be_wrong_in_a_row) {
   valve.valid.drive[1].spool_ratio = 0.5;
   assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
   // For as long as it lasts, and not a cycle longer.
-  for (int n = 0; n < 100; ++n) {
-    assert_true(valve.stuck());
-  }
+  repeat(100, [&] { assert_true(valve.stuck()); });
   valve.valid.drive[1].spool_ratio = 0.0;
   assert_false(valve.stuck());
 }
 
 /// Axes do not add up: each spool has its own row.
-TEST(each_spool_is_counted_by_itself) {
-  Valve valve;
+TEST(each_spool_is_counted_by_itself, Valve valve) {
   valve.settle(0.0);
   for (int n = 0; n < 30; ++n) {
     all_at(valve.valid, 0.0);
@@ -130,8 +124,7 @@ TEST(it_is_given_the_time_to_settle) {
 }
 
 /// The dead time is known within 30 %: 1.3 * 0.15 s + 0.03 s + 0.02 s are 24.5 cycles.
-TEST(it_is_given_the_dead_time_too) {
-  Valve valve;
+TEST(it_is_given_the_dead_time_too, Valve valve) {
   valve.profile.control.dead_time_s = 0.15;
   valve.settle(0.75);
   valve.sent.duty_ratio = {0.0, 0.0, 0.0};
@@ -166,8 +159,7 @@ TEST(it_is_given_what_its_slower_side_needs) {
 }
 
 /// More than the ring holds is cut to it; no time at all still leaves the age of a frame.
-TEST(the_time_under_way_is_bounded) {
-  Valve slow;
+TEST(the_time_under_way_is_bounded, Valve slow) {
   slow.profile.control.dead_time_s = 5.0;
   slow.settle(0.75);
   slow.sent.duty_ratio = {0.0, 0.0, 0.0};
@@ -239,9 +231,7 @@ TEST(no_sound_spool_is_stuck) {
 TEST(the_ring_has_no_seam) {
   for (int start = 0; start < CommandHistory::kMostCycles; ++start) {
     Valve valve;
-    for (int n = 0; n < start; ++n) {
-      assert_false(valve.stuck());
-    }
+    repeat(start, [&] { assert_false(valve.stuck()); });
     valve.sent.duty_ratio = {1.0, 1.0, 1.0};
     assert_false(valve.stuck());
     valve.sent.duty_ratio = {0.0, 0.0, 0.0};
@@ -251,8 +241,7 @@ TEST(the_ring_has_no_seam) {
 }
 
 /// On its way anywhere between the least and the most of late a spool is well.
-TEST(between_old_and_new_is_well) {
-  Valve valve;
+TEST(between_old_and_new_is_well, Valve valve) {
   valve.settle(-0.5);
   valve.sent.duty_ratio = {0.75, 0.75, 0.75};
   for (int n = 0; n < kStarts + 2; ++n) {
@@ -269,9 +258,7 @@ TEST(the_echo_is_compared_both_ways) {
     Valve valve;
     valve.sent.enable = told;
     valve.valid.valve_enabled = told;
-    for (int n = 0; n < 100; ++n) {
-      assert_false(valve.deaf());
-    }
+    repeat(100, [&] { assert_false(valve.deaf()); });
     valve.valid.valve_enabled = !told;
     for (int n = 1; n < kEchoCycles; ++n) {
       assert_false(valve.deaf());
@@ -288,8 +275,7 @@ TEST(the_echo_is_compared_both_ways) {
 
 /// Spools that were not received are not judged, and counting begins afresh with those that are;
 /// what was sent meanwhile is remembered.
-TEST(missing_feedback_is_not_judged) {
-  Valve valve;
+TEST(missing_feedback_is_not_judged, Valve valve) {
   valve.settle(0.75);
   valve.sent.enable = true;
   all_at(valve.valid, 0.0);
@@ -297,9 +283,7 @@ TEST(missing_feedback_is_not_judged) {
     assert_true(valve.step().empty());
   }
   valve.valid.faults.add(Fault::kSpoolMissing);
-  for (int n = 0; n < 50; ++n) {
-    assert_true(valve.step().empty());
-  }
+  repeat(50, [&] { assert_true(valve.step().empty()); });
   valve.valid.faults = {};
   assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
   assert_int_equal(valve.cycles_until(Fault::kValveNotFollowing), kEchoCycles - kSpoolWrongCycles);

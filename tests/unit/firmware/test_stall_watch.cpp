@@ -19,9 +19,7 @@ struct Machine {
   bool asked = true;
 
   void run(double share, int cycles) {
-    for (int n = 0; n < cycles; ++n) {
-      next_stall(active, asked, share, kMost_s, kPeriod_s, state);
-    }
+    repeat(cycles, [&] { next_stall(active, asked, share, kMost_s, kPeriod_s, state); });
   }
   /// What is told now: kNone, kStalling or kStalled.
   [[nodiscard]] Fault told() const {
@@ -33,8 +31,7 @@ struct Machine {
   }
 };
 
-TEST(it_is_said_and_then_stopped) {
-  Machine machine;
+TEST(it_is_said_and_then_stopped, Machine machine) {
   machine.run(0.0, 128);
   assert_int_equal(machine.told(), Fault::kNone);
   machine.run(0.0, 1);
@@ -45,8 +42,7 @@ TEST(it_is_said_and_then_stopped) {
   assert_int_equal(machine.told(), Fault::kStalled);
 }
 
-TEST(a_twentieth_is_getting_on) {
-  Machine machine;
+TEST(a_twentieth_is_getting_on, Machine machine) {
   machine.run(kStallShare, 1000);
   assert_int_equal(machine.told(), Fault::kNone);
   machine.run(std::nextafter(kStallShare, 0.0), 129);
@@ -56,8 +52,7 @@ TEST(a_twentieth_is_getting_on) {
 }
 
 /// 85 % of the time without getting on is a stall too; half of it is none.
-TEST(most_of_the_time_counts) {
-  Machine mostly;
+TEST(most_of_the_time_counts, Machine mostly) {
   for (int n = 0; n < 40 * 64; ++n) {
     mostly.run(n % 20 < 17 ? 0.0 : 1.0, 1);
   }
@@ -69,8 +64,7 @@ TEST(most_of_the_time_counts) {
   }
 }
 
-TEST(nothing_asked_is_no_stall) {
-  Machine machine;
+TEST(nothing_asked_is_no_stall, Machine machine) {
   machine.run(0.0, 200);
   machine.asked = false;
   machine.run(0.0, 73);
@@ -81,8 +75,7 @@ TEST(nothing_asked_is_no_stall) {
   assert_int_equal(machine.told(), Fault::kNone);  // Never below 0.
 }
 
-TEST(not_active_it_begins_newly) {
-  Machine machine;
+TEST(not_active_it_begins_newly, Machine machine) {
   machine.run(0.0, 2000);
   machine.active = false;
   machine.run(0.0, 1);
@@ -93,8 +86,7 @@ TEST(not_active_it_begins_newly) {
 }
 
 /// However long it has stalled, a second and what was allowed is all that has to run off.
-TEST(it_is_bounded) {
-  Machine machine;
+TEST(it_is_bounded, Machine machine) {
   machine.run(0.0, 100000);
   assert_near(machine.state.stalled_s, kMost_s + 1.0, 0.0);
   machine.run(1.0, 64);

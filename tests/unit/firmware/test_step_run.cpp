@@ -115,9 +115,7 @@ TEST(a_force_ends_a_step_that_it_holds) {
     run.state.time_s = 3.0;
     run.force_known = known;
     run.force_n = force_n * Eigen::Vector2d(0.6, -0.8);
-    for (int n = 0; n < cycles; ++n) {
-      run.step();
-    }
+    repeat(cycles, [&] { run.step(); });
     return run.state.ends == UntilKind::kForce || run.state.step == 1;
   };
   assert_true(ends_after(1.01 * most_n, true, 22));

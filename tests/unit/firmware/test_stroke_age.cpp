@@ -33,9 +33,7 @@ struct Boom {
   }
   double run(int cycles, TimeUs age_us) {
     double last_m = 0.0;
-    for (int n = 0; n < cycles; ++n) {
-      last_m = step(age_us);
-    }
+    repeat(cycles, [&] { last_m = step(age_us); });
     return last_m;
   }
 

@@ -43,8 +43,7 @@ TEST(the_tolerance_is_a_sharp_edge) {
 }
 
 /// The servo has 0.5 s; a moment of agreement gives it as much again.
-TEST(the_servo_is_given_its_time) {
-  Pumps pumps;
+TEST(the_servo_is_given_its_time, Pumps pumps) {
   pumps.swash[0] = 0.0;
   assert_false(pumps.disagree(0.25));
   assert_false(pumps.disagree(0.25));
@@ -58,8 +57,7 @@ TEST(the_servo_is_given_its_time) {
 }
 
 /// The smaller of command and feedback, of that pump alone, and only once it disagrees.
-TEST(the_smaller_one_counts) {
-  Pumps more;
+TEST(the_smaller_one_counts, Pumps more) {
   more.swash = {0.25, 1.0};
   assert_false(more.disagree(0.5));
   more.assert_flow_with(0.25, 1.0);
@@ -72,8 +70,7 @@ TEST(the_smaller_one_counts) {
 }
 
 /// A pump that sets its own swash goes where the drives need it.
-TEST(a_regulated_pump_is_not_asked) {
-  Pumps own;
+TEST(a_regulated_pump_is_not_asked, Pumps own) {
   own.profile.pump[1].regulator.kind = PumpKind::kLoadSensing;
   own.swash[1] = 0.1;
   assert_false(own.disagree(10.0));
@@ -81,8 +78,7 @@ TEST(a_regulated_pump_is_not_asked) {
 }
 
 /// A pump that is not there answers nothing.
-TEST(only_the_machine_s_pumps_are_asked) {
-  Pumps one;
+TEST(only_the_machine_s_pumps_are_asked, Pumps one) {
   one.profile.pump_count = 1;
   one.swash[1] = 0.0;
   assert_false(one.disagree(10.0));
@@ -91,8 +87,7 @@ TEST(only_the_machine_s_pumps_are_asked) {
 }
 
 /// Without a command nothing is asked, and nothing is remembered.
-TEST(without_a_command_nothing_is_asked) {
-  Pumps pumps;
+TEST(without_a_command_nothing_is_asked, Pumps pumps) {
   pumps.swash = {0.0, 0.0};
   assert_false(pumps.disagree(10.0, false));
   pumps.assert_flow_with(0.0, 0.0);
@@ -120,8 +115,7 @@ TEST(a_command_may_move) {
 }
 
 /// Of a pump whose swash nobody measures the flow is reckoned with the least that it may have.
-TEST(the_slower_of_both_stands_in) {
-  Pumps pumps;
+TEST(the_slower_of_both_stands_in, Pumps pumps) {
   pumps.profile.bus.swash_feedback = false;
   pumps.wanted = {0.25, 1.0};
   assert_false(pumps.disagree(0.05));

@@ -186,8 +186,7 @@ struct Digging : test::Running {
   }
 };
 
-TEST(digging_holds_the_swing) {
-  Digging digging;
+TEST(digging_holds_the_swing, Digging digging) {
   for (int n = 0; n < 20; ++n) {
     ExcavatorInputs inputs = digging.inputs();
     inputs.swing.angle_rad.value = n % 2 == 0 ? 1e-3 : -1e-3;
@@ -227,8 +226,7 @@ TEST(whatever_fails_of_the_swing_is_neutral) {
 }
 
 /// A platform that turns by itself, 0.2 rad/s, long after its spool has closed.
-TEST(a_swing_that_turns_by_itself_is_neutral) {
-  Digging digging;
+TEST(a_swing_that_turns_by_itself_is_neutral, Digging digging) {
   const SwingProfile& swing = profile().swing;
   // When one at full speed would have come to rest, half a second for the oil, and a second.
   const double stopped_s = swing.speed_max_radps / swing.acceleration_max_radps2 + 1.5;

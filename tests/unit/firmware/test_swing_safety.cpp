@@ -161,9 +161,7 @@ struct Swing {
     return watch_motion(bank.rows(), seen, asked_mps, period_s, state);
   }
   void run(int cycles) {
-    for (int n = 0; n < cycles; ++n) {
-      assert_true(step().empty());
-    }
+    repeat(cycles, [&] { assert_true(step().empty()); });
   }
 };
 
@@ -180,8 +178,7 @@ TEST(a_swing_that_drifts_is_uncommanded) {
 }
 
 /// 0.5 s and the 2 s that 1 rad/s takes at 0.5 rad/s^2: 40 cycles from its spool's closing.
-TEST(its_mass_may_come_to_rest) {
-  Swing swing;
+TEST(its_mass_may_come_to_rest, Swing swing) {
   swing.spool = kOpen;
   swing.run(60);
   swing.spool = 0.0;
@@ -206,8 +203,7 @@ TEST(a_swing_that_stands_still_is_stuck) {
 }
 
 /// A swing that nothing is wanted of trips nothing, for as long as it stands.
-TEST(a_swing_at_rest_is_well) {
-  Swing swing;
+TEST(a_swing_at_rest_is_well, Swing swing) {
   for (int n = 0; n < 2000; ++n) {
     swing.angle_rad = n % 2 == 0 ? 1e-4 : -1e-4;
     assert_true(swing.step().empty());

@@ -46,8 +46,7 @@ TEST(choices_are_told_apart) {
 }
 
 /// Arming needs a task at rest, and what was armed begins at once.
-TEST(the_first_task_begins_at_once) {
-  Machine machine;
+TEST(the_first_task_begins_at_once, Machine machine) {
   machine.at_rest = false;
   assert_true(machine.step(kNothing) == kNothing);
   assert_true(machine.step(kDigging) == kDigging);
@@ -57,8 +56,7 @@ TEST(the_first_task_begins_at_once) {
   }
 }
 
-TEST(outside_motion_everything_is_let_through) {
-  Machine machine;
+TEST(outside_motion_everything_is_let_through, Machine machine) {
   machine.step(kDigging);
   machine.in_motion = false;
   for (const TaskChoice& asked : {kFirst, kNothing, kSecond}) {
@@ -79,8 +77,7 @@ TEST(another_task_waits_for_standstill) {
 }
 
 /// Back to the same task counts as a change as well: it was let go in between.
-TEST(the_same_task_again_waits_too) {
-  Machine machine;
+TEST(the_same_task_again_waits_too, Machine machine) {
   machine.step(kFirst);
   assert_true(machine.step(kNothing) == kNothing);
   assert_int_equal(machine.cycles_until(kFirst), kCycles + 1);
@@ -88,12 +85,9 @@ TEST(the_same_task_again_waits_too) {
   assert_int_equal(machine.cycles_until(kSecond), kCycles + 1);
 }
 
-TEST(none_for_long_enough_has_waited_already) {
-  Machine machine;
+TEST(none_for_long_enough_has_waited_already, Machine machine) {
   machine.step(kFirst);
-  for (int n = 0; n < kCycles + 1; ++n) {
-    machine.step(kNothing);
-  }
+  repeat(kCycles + 1, [&] { machine.step(kNothing); });
   assert_true(machine.step(kFirst) == kFirst);
 }
 
@@ -115,13 +109,10 @@ TEST(what_moves_is_waited_for) {
   assert_int_equal(noisy.cycles_until(kSecond), kCycles);
 }
 
-TEST(spools_that_are_open_are_waited_for) {
-  Machine machine;
+TEST(spools_that_are_open_are_waited_for, Machine machine) {
   machine.step(kFirst);
   machine.at_rest = false;
-  for (int n = 0; n < 50; ++n) {
-    assert_true(machine.step(kSecond) == kNothing);
-  }
+  repeat(50, [&] { assert_true(machine.step(kSecond) == kNothing); });
   machine.at_rest = true;
   assert_int_equal(machine.cycles_until(kSecond), kCycles);
 }
@@ -135,8 +126,7 @@ TEST(standstill_is_over_after_its_time_and_no_sooner) {
   }
 }
 
-TEST(as_many_drives_as_a_machine_can_have_are_waited_for) {
-  TaskChangeState state;
+TEST(as_many_drives_as_a_machine_can_have_are_waited_for, TaskChangeState state) {
   std::array<double, kMostDrives> travel_m{};
   const auto step = [&](const TaskChoice& asked) {
     return task_after_change(state, asked, true, true, travel_m, kStandstill_s);
@@ -149,8 +139,7 @@ TEST(as_many_drives_as_a_machine_can_have_are_waited_for) {
 }
 
 /// What is asked for by turns begins never.
-TEST(a_task_that_toggles_stays_at_rest) {
-  Machine machine;
+TEST(a_task_that_toggles_stays_at_rest, Machine machine) {
   machine.step(kFirst);
   machine.step(kNothing);
   for (int n = 0; n < 200; ++n) {

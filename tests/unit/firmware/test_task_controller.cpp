@@ -140,9 +140,7 @@ TEST(a_task_withdrawn_is_forgotten) {
     assert_int_equal(running.outputs.status.mode, EcuMode::kArmed);
   }
   const DriveVector stood = running.drives.value();
-  for (int n = 0; n < 50; ++n) {
-    running.step();
-  }
+  repeat(50, [&] { running.step(); });
   assert_true((running.drives.value() - stood).norm() < 1e-9);
   running.driver.task.value = Task::kProgram;
   assert_starts_afresh(running, 0);

@@ -156,8 +156,7 @@ TEST(a_plan_of_another_machine_is_unknown) {
 }
 
 /// At its end nothing is wanted, and the valve stays closed.
-TEST(done_holds_nothing) {
-  TaskState state;
+TEST(done_holds_nothing, TaskState state) {
   state.phase = TaskPhase::kDone;
   const TaskWant done = want(remembered(0, state), servo_at_rest(travel_of(profile(), dig().end)));
   assert_true(done.runs);

@@ -183,8 +183,7 @@ TEST(what_repeats_is_raised_as_one_pose) {
 }
 
 /// A swing past a wall that the teeth pass by 20 um for less than a step of the walk.
-TEST(what_is_passed_between_two_steps_is_found) {
-  ProgramRequest request;
+TEST(what_is_passed_between_two_steps_is_found, ProgramRequest request) {
   const TeethPose ahead{{6.9, 0.0, 0.5}, 1.9};
   const auto turned = [&](double swing_rad) {
     TeethPose pose = ahead;

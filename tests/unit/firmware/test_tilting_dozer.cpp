@@ -87,8 +87,7 @@ TEST(a_roll_that_does_not_go_with_its_rate_is_seen) {
 }
 
 /// Nothing of it is asked of a machine without.
-TEST(a_machine_without_tilt_needs_none_of_it) {
-  Grading grading;
+TEST(a_machine_without_tilt_needs_none_of_it, Grading grading) {
   grading.run(50);
   assert_false(grading.outputs.tilts);
   assert_near(grading.outputs.tilt_duty_ratio, 0.0, 0.0);

@@ -38,9 +38,7 @@ TEST(force_at_rest) {
     world.teeth_n = force_n;
     // At a dig's begin the bucket is empty.
     const Eigen::Vector3d strokes_m = world.strokes_at(kLow);
-    for (int n = 0; n < 100; ++n) {
-      world.cycle(StepKind::kDig, 0.0, strokes_m, Eigen::Vector3d::Zero());
-    }
+    repeat(100, [&] { world.cycle(StepKind::kDig, 0.0, strokes_m, Eigen::Vector3d::Zero()); });
     const TipLoad& told = world.told();
     assert_true(told.known);
     assert_false(told.payload_known);
@@ -50,8 +48,7 @@ TEST(force_at_rest) {
 }
 
 // What is off is learnt in the air; the load is then known through it all.
-TEST(payload_with_all_that_is_off) {
-  LoadWorld world;
+TEST(payload_with_all_that_is_off, LoadWorld world) {
   world.offset_n = {15e3, -6e3, 4e3};
   world.coulomb_n = {5e3, 2.5e3, 3e3};
   world.mass_factor = {1.1, 0.92, 1.08};
@@ -71,8 +68,7 @@ TEST(payload_with_all_that_is_off) {
 }
 
 // Without a move in the air the deviation says how little is known, and holds.
-TEST(nothing_learnt_yet) {
-  LoadWorld world;
+TEST(nothing_learnt_yet, LoadWorld world) {
   world.offset_n = {9e3, -4e3, 3e3};
   lift(world, 1000.0);
   const TipLoad& told = world.told();
@@ -81,8 +77,7 @@ TEST(nothing_learnt_yet) {
   assert_true(std::abs(told.payload_kg - 1000.0) < 3.0 * told.payload_sd_kg);
 }
 
-TEST(friction_is_learnt) {
-  LoadWorld world;
+TEST(friction_is_learnt, LoadWorld world) {
   world.coulomb_n = {7e3, 1e3, 2e3};
   world.viscous_nspm = {35e3, 20e3, 15e3};
   wave_empty(world);
@@ -135,8 +130,7 @@ TEST(held_is_not_learnt) {
 }
 
 // It goes back through what it has poured.
-TEST(its_own_heap_is_not_learnt) {
-  LoadWorld world;
+TEST(its_own_heap_is_not_learnt, LoadWorld world) {
   wave_empty(world);
   lift(world, 1200.0);
   world.load_kg = 0.0;
@@ -153,8 +147,7 @@ TEST(its_own_heap_is_not_learnt) {
 }
 
 // A heap has sides: beside them the empty bucket is free, and a bucket that was emptied stays so.
-TEST(beside_its_heap_is_learnt) {
-  LoadWorld world;
+TEST(beside_its_heap_is_learnt, LoadWorld world) {
   wave_empty(world);
   lift(world, 1500.0);
   world.load_kg = 0.0;
@@ -169,8 +162,7 @@ TEST(beside_its_heap_is_learnt) {
 }
 
 // An arm that moves weighs as well as a boom, and what a jerk has taught is forgotten.
-TEST(weighed_without_the_boom) {
-  LoadWorld world;
+TEST(weighed_without_the_boom, LoadWorld world) {
   wave_empty(world);
   world.load_kg = 1100.0;
   const Eigen::Vector3d from_m = world.strokes_at({5.2, -0.2, 0.4});
@@ -183,8 +175,7 @@ TEST(weighed_without_the_boom) {
 }
 
 // A bucket that opens has begun to lose what was weighed.
-TEST(sliding_soil_is_not_weighed) {
-  LoadWorld world;
+TEST(sliding_soil_is_not_weighed, LoadWorld world) {
   wave_empty(world);
   lift(world, 1000.0);
   const double weighed_kg = world.told().payload_kg;
@@ -194,8 +185,7 @@ TEST(sliding_soil_is_not_weighed) {
   assert_near(world.told().payload_kg, weighed_kg, 10.0);
 }
 
-TEST(not_known) {
-  LoadWorld world;
+TEST(not_known, LoadWorld world) {
   wave_empty(world);
   assert_true(world.told().known);
   const LoadTerms before = world.observer.terms;

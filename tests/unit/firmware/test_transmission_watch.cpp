@@ -115,8 +115,7 @@ TEST(a_sensor_that_nothing_confirms_is_outvoted) {
   }
 }
 
-TEST(one_that_agrees_with_a_sensor_is_enough) {
-  Machine like_body;
+TEST(one_that_agrees_with_a_sensor_is_enough, Machine like_body) {
   like_body.run_at(1.3);
   static_cast<void>(like_body.step());
   assert_false(like_body.valid.track_outvoted[kLeft]);
@@ -127,8 +126,7 @@ TEST(one_that_agrees_with_a_sensor_is_enough) {
 }
 
 /// The body's speed is that along the slope.
-TEST(on_a_slope_the_body_is_faster_than_its_position) {
-  Machine machine;
+TEST(on_a_slope_the_body_is_faster_than_its_position, Machine machine) {
   machine.valid.pitch_rad = 0.75;
   machine.valid.velocity_mps = 1.5 * std::cos(0.75);
   machine.valid.track_speed_mps = {1.9, 1.9};  // 0.45 m/s beside 1.5.
@@ -176,8 +174,7 @@ TEST(tracks_are_judged_where_they_can_be) {
   assert_false(machine.step(0.01).tracks_disagree);
 }
 
-TEST(the_transmission_speaks_for_both_tracks) {
-  Machine machine;
+TEST(the_transmission_speaks_for_both_tracks, Machine machine) {
   machine.valid.pump_ratio = {0.5, 0.25};
   machine.valid.track_speed_mps = {1.5, 0.75};
   GroundSpeeds speeds = ground_speeds(machine.profile, machine.valid);

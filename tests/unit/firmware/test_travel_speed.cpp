@@ -86,8 +86,7 @@ TEST(it_is_never_held_below_v_min) {
   assert_near(after(demand, 5.0).state.speed_mps, 0.0, 1e-12);
 }
 
-TEST(it_brakes_no_harder_than_it_may) {
-  SpeedState fast;
+TEST(it_brakes_no_harder_than_it_may, SpeedState fast) {
   fast.speed_mps = 1.6;
   SpeedDemand demand = easy();
   demand.ahead = {0.2, 0.2};
@@ -111,8 +110,7 @@ TEST(off_home_it_rises_no_higher_than_what_lies_ahead) {
 }
 
 /// A limit that trembles lets it fall, and then stay.
-TEST(a_trembling_limit_does_not_make_it_tremble) {
-  SpeedState state;
+TEST(a_trembling_limit_does_not_make_it_tremble, SpeedState state) {
   state.speed_mps = 0.8;
   int rises = 0;
   for (int n = 0; n < 1000; ++n) {
@@ -149,8 +147,6 @@ TEST(constant_asks_neither_blade_nor_ground) {
   demand.ahead = {0.1, 0.1};
   demand.blade_angle_rad = 0.3;
   SpeedState state;
-  for (int n = 0; n < 500; ++n) {
-    state = next_speed(constant, state, demand, kPeriod_s).state;
-  }
+  repeat(500, [&] { state = next_speed(constant, state, demand, kPeriod_s).state; });
   assert_near(state.speed_mps, 1.6, 1e-12);
 }

@@ -25,8 +25,7 @@ Fault after(TubeState& state, double error_m, bool active = true) {
   return told(state);
 }
 
-TEST(it_may_begin_anywhere_and_come_near) {
-  TubeState state;
+TEST(it_may_begin_anywhere_and_come_near, TubeState state) {
   assert_int_equal(told(state), Fault::kNone);
   for (const double error_m : {4.0, 4.25, 2.0, 2.25, 0.0, 0.25}) {
     assert_int_equal(after(state, error_m), Fault::kNone);
@@ -35,8 +34,7 @@ TEST(it_may_begin_anywhere_and_come_near) {
   assert_int_equal(after(state, 0.25), Fault::kNone);
 }
 
-TEST(away_from_where_it_came_to_is_outside) {
-  TubeState state;
+TEST(away_from_where_it_came_to_is_outside, TubeState state) {
   static_cast<void>(after(state, 2.0));
   assert_int_equal(after(state, 2.2501), Fault::kPathLeft);
   assert_int_equal(after(state, kNone), Fault::kPathLeft);
@@ -44,8 +42,7 @@ TEST(away_from_where_it_came_to_is_outside) {
   assert_int_equal(after(fresh, std::numeric_limits<double>::infinity()), Fault::kPathLeft);
 }
 
-TEST(the_next_task_begins_newly) {
-  TubeState state;
+TEST(the_next_task_begins_newly, TubeState state) {
   static_cast<void>(after(state, 0.0));
   static_cast<void>(after(state, 1.0));
   assert_int_equal(after(state, 1.0, false), Fault::kNone);
@@ -57,8 +54,7 @@ Fault above(TubeState& state, double error_m, bool active = true) {
   return told(state);
 }
 
-TEST(below_a_surface_is_never_far) {
-  TubeState state;
+TEST(below_a_surface_is_never_far, TubeState state) {
   assert_int_equal(above(state, -0.25), Fault::kNone);
   assert_int_equal(above(state, std::nextafter(-0.25, -1.0)), Fault::kPathLeft);
   assert_int_equal(above(state, -1.0, false), Fault::kNone);

@@ -290,9 +290,7 @@ TEST(the_margin_is_a_sharp_edge) {
 /// Back where it was: over, as if nothing had been.
 TEST(a_jump_and_back_is_bridged) {
   Stroke stroke = at_half(kBoom);
-  for (int n = 0; n < 3; ++n) {
-    assert_true(stroke.frame(0.75).degraded.has(Fault::kStrokeJump));
-  }
+  repeat(3, [&] { assert_true(stroke.frame(0.75).degraded.has(Fault::kStrokeJump)); });
   assert_true(stroke.frame(0.505).faults.empty());
   assert_near(stroke.valid.drive[kBoom].stroke_m, 0.505, 0.0);
   assert_true(stroke.frame(0.51).faults.empty());
@@ -326,9 +324,7 @@ TEST(a_jump_to_nothing_is_a_loss) {
   assert_int_equal(mad.frame(std::nan("")).fault, Fault::kStrokeMissing);
   Stroke silent = at_half(kBoom);
   silent.frame(0.75);
-  for (int n = 0; n < 3; ++n) {
-    assert_int_equal(silent.lost().fault, Fault::kNone);
-  }
+  repeat(3, [&] { assert_int_equal(silent.lost().fault, Fault::kNone); });
   assert_int_equal(silent.lost().fault, Fault::kStrokeMissing);
 }
 

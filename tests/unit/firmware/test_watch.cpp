@@ -8,8 +8,7 @@
 using namespace graben;
 using namespace graben::test;
 
-TEST(a_machine_that_obeys_is_left_alone) {
-  Machine machine;
+TEST(a_machine_that_obeys_is_left_alone, Machine machine) {
   for (int n = 0; n < 200; ++n) {
     assert_well(machine.step());
     // 2 pi 1e-5 and 4 pi 1e-5 m3/rev at 200 rad/s, swash 0.5 and 0.75.
@@ -18,8 +17,7 @@ TEST(a_machine_that_obeys_is_left_alone) {
   }
 }
 
-TEST(spools_and_cylinders_stop) {
-  Machine stuck;
+TEST(spools_and_cylinders_stop, Machine stuck) {
   stuck.run(20);
   stuck.inputs.drive[kArm].spool_ratio = 0.1875;  // Off, and yet within its deadband.
   stuck.run(kSpoolWrongCycles - 1);
@@ -39,8 +37,7 @@ TEST(spools_and_cylinders_stop) {
   assert_stopped_by(Fault::kStrokeStuck, still.step());
 }
 
-TEST(pressures_and_swash_slow) {
-  Machine pressure;
+TEST(pressures_and_swash_slow, Machine pressure) {
   pressure.step();
   pressure.frozen = true;
   pressure.inputs.drive[kArm].rod_pressure_pa = 40e6;
@@ -68,8 +65,7 @@ TEST(pressures_and_swash_slow) {
 }
 
 /// What came in as a stop stays the first; the watches' own are added.
-TEST(the_first_fault_stays_the_first) {
-  Machine machine;
+TEST(the_first_fault_stays_the_first, Machine machine) {
   machine.inputs.valve_enabled = false;
   machine.run(kEchoCycles - 1);
   machine.inputs.fault = Fault::kBusOff;
@@ -85,8 +81,7 @@ TEST(the_first_fault_stays_the_first) {
 
 /// With a fault that stops, the cylinders' watches begin afresh: no second fault from half of the
 /// truth.
-TEST(a_stopped_machine_is_not_judged) {
-  Machine machine;
+TEST(a_stopped_machine_is_not_judged, Machine machine) {
   machine.run(20);
   machine.inputs.fault = Fault::kStrokeMissing;
   machine.inputs.faults.add(Fault::kStrokeMissing);
@@ -110,8 +105,7 @@ struct Released : Machine {
   }
 };
 
-TEST(a_spool_that_does_not_close_after_motion_is_stuck) {
-  Released machine;
+TEST(a_spool_that_does_not_close_after_motion_is_stuck, Released machine) {
   assert_true(machine.stuck_after(30));
   assert_int_equal(machine.seen.fault, Fault::kSpoolStuck);
   set_spools(machine.inputs, {0.0, 0.0, 0.0});
@@ -119,8 +113,7 @@ TEST(a_spool_that_does_not_close_after_motion_is_stuck) {
 }
 
 /// Once all have been in their middle, or manual mode says so, it is somebody's hand.
-TEST(what_a_hand_opens_afterwards_is_not_stuck) {
-  Released closed;
+TEST(what_a_hand_opens_afterwards_is_not_stuck, Released closed) {
   set_spools(closed.inputs, {0.0, 0.0, 0.0});
   closed.run(1);
   set_spools(closed.inputs, {0.0, 0.75, 0.0});
@@ -131,8 +124,7 @@ TEST(what_a_hand_opens_afterwards_is_not_stuck) {
 }
 
 /// Neither spools that are not seen nor an operator who is not heard have closed or taken over.
-TEST(what_is_not_known_does_not_end_the_closing) {
-  Released machine;
+TEST(what_is_not_known_does_not_end_the_closing, Released machine) {
   machine.inputs.faults.add(Fault::kSpoolMissing);
   machine.inputs.faults.add(Fault::kOperatorMissing);
   machine.inputs.automatic = false;
@@ -144,8 +136,7 @@ TEST(what_is_not_known_does_not_end_the_closing) {
 
 /// Outside motion people move it: spools, strokes, pressures, swash are theirs. The valve's echo is
 /// not.
-TEST(not_in_motion_the_machine_is_the_operators) {
-  Machine machine;
+TEST(not_in_motion_the_machine_is_the_operators, Machine machine) {
   machine.cycle = {};
   machine.inputs.valve_enabled = false;
   machine.inputs.degraded.add(Fault::kPressureMissing);  // Left over; means nothing here.
@@ -167,8 +158,7 @@ TEST(not_in_motion_the_machine_is_the_operators) {
 }
 
 /// Armed after that, every watch begins afresh, but for what was sent.
-TEST(every_motion_begins_afresh) {
-  Machine machine;
+TEST(every_motion_begins_afresh, Machine machine) {
   machine.inputs.swash_ratio[0] = 0.0;
   machine.run(7);
   assert_true(machine.state.swash[0].off_s > 0.0);
@@ -185,8 +175,7 @@ TEST(every_motion_begins_afresh) {
 
 /// A value that comes and goes does not make the machine jerk: 0.5 s after it has come back the
 /// speed does.
-TEST(what_degraded_goes_on_for_a_second) {
-  Machine machine;
+TEST(what_degraded_goes_on_for_a_second, Machine machine) {
   machine.step();
   for (int round = 0; round < 2; ++round) {
     machine.inputs.degraded.add(Fault::kEngineSpeedMissing);
@@ -203,8 +192,7 @@ TEST(what_degraded_goes_on_for_a_second) {
 }
 
 /// Several at once are all named, until the last of them has been gone for as long.
-TEST(all_that_degraded_is_named) {
-  Machine machine;
+TEST(all_that_degraded_is_named, Machine machine) {
   machine.inputs.degraded.add(Fault::kPressureMissing);
   machine.step();
   machine.inputs.degraded = {};
@@ -219,8 +207,7 @@ TEST(all_that_degraded_is_named) {
 }
 
 /// The next motion does not begin slow for what the last one lost.
-TEST(the_end_of_motion_ends_it) {
-  Machine machine;
+TEST(the_end_of_motion_ends_it, Machine machine) {
   machine.inputs.degraded.add(Fault::kPressureMissing);
   machine.step();
   machine.inputs.degraded = {};

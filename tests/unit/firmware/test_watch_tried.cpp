@@ -37,8 +37,7 @@ TEST(duties_that_are_tried_are_not_judged_by_the_model) {
 }
 
 /// What a sensor of unknown zero shows of an empty chamber is not stuck while duties are tried.
-TEST(an_empty_chamber_slows_nobody_who_tries) {
-  Machine machine;
+TEST(an_empty_chamber_slows_nobody_who_tries, Machine machine) {
   machine.frozen = true;
   machine.cycle.tried = true;
   for (int n = 0; n < 40; ++n) {

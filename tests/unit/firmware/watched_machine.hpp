@@ -58,9 +58,7 @@ struct Machine {
     return seen;
   }
   void run(int count) {
-    for (int n = 0; n < count; ++n) {
-      step();
-    }
+    repeat(count, [&] { step(); });
   }
   bool frozen = false;
 };

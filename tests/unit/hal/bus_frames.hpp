@@ -180,4 +180,4 @@ struct Feed {
 
 }  // namespace graben::test
 
-#define TEST_ON_BOTH(name) TEST_OF_EACH(name, Bus, ExcavatorBus, DozerBus)
+#define TEST_ON_BOTH_BUSES(name) TEST_OF_EACH(name, Bus, ExcavatorBus, DozerBus)

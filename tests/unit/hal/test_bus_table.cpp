@@ -70,8 +70,7 @@ TEST(bits_lie_where_a_dbc_says) {
   assert_false(lies_within({0, 16, false, false}, 1));
 }
 
-TEST(a_value_comes_with_its_scale_and_sign) {
-  Bus bus;
+TEST(a_value_comes_with_its_scale_and_sign, Bus bus) {
   bus.angle(0.3);
   assert_true(bus.inputs().joint_rad[0].validity == Validity::kValid);
   assert_near(bus.inputs().joint_rad[0].value, 0.3, 2.1e-4);
@@ -80,8 +79,7 @@ TEST(a_value_comes_with_its_scale_and_sign) {
   assert_int_equal(bus.receiver.foreign(), 0);
 }
 
-TEST(what_cannot_be_is_refused) {
-  Bus bus;
+TEST(what_cannot_be_is_refused, Bus bus) {
   bus.angle(0.3);
   bus.pass();
   bus.angle(1.4);  // Beyond its range.
@@ -96,8 +94,7 @@ TEST(what_cannot_be_is_refused) {
   assert_int_equal(bus.receiver.table().out_of_range, 2);
 }
 
-TEST(a_silent_source_is_missing_in_its_own_time) {
-  Bus bus;
+TEST(a_silent_source_is_missing_in_its_own_time, Bus bus) {
   bus.angle(0.3);
   for (int cycle = 0; cycle < 4; ++cycle) {
     bus.pass();
@@ -109,8 +106,7 @@ TEST(a_silent_source_is_missing_in_its_own_time) {
   assert_near(bus.inputs().joint_rad[0].value, -1.0, 2.1e-4);
 }
 
-TEST(two_senders_are_an_error) {
-  Bus bus;
+TEST(two_senders_are_an_error, Bus bus) {
   bus.angle(0.3);
   for (int cycle = 0; cycle < 8; ++cycle) {
     bus.pass();
@@ -127,16 +123,14 @@ TEST(two_senders_are_an_error) {
   assert_true(worst == Validity::kError);
 }
 
-TEST(another_bus_is_not_meant) {
-  Bus bus;
+TEST(another_bus_is_not_meant, Bus bus) {
   bus.angle(0.3, 1);
   assert_true(bus.inputs().joint_rad[0].validity == Validity::kNotReceived);
   bus.angle(0.3, 0);
   assert_true(bus.inputs().joint_rad[0].validity == Validity::kValid);
 }
 
-TEST(a_counter_that_stands_still_is_no_news) {
-  Bus bus;
+TEST(a_counter_that_stands_still_is_no_news, Bus bus) {
   bus.state(false);  // Only says where it counts from.
   bus.pass(5 * kPeriod);
   assert_true(bus.inputs().valve_enabled.validity == Validity::kNotAvailable);
@@ -156,8 +150,7 @@ TEST(a_counter_that_stands_still_is_no_news) {
   assert_int_equal(bus.receiver.table().wrong_counter, 4);
 }
 
-TEST(a_slow_source_holds_up_to_its_time_out) {
-  Bus bus;
+TEST(a_slow_source_holds_up_to_its_time_out, Bus bus) {
   bus.state(false);
   bus.pass(5 * kPeriod);
   bus.state(false);
@@ -171,8 +164,7 @@ TEST(a_slow_source_holds_up_to_its_time_out) {
   assert_true(bus.inputs().valve_enabled.validity == Validity::kNotAvailable);
 }
 
-TEST(a_condition_that_fails_says_disabled) {
-  Bus bus;
+TEST(a_condition_that_fails_says_disabled, Bus bus) {
   bus.state(false);
   bus.pass(5 * kPeriod);
   bus.state(true);
@@ -181,8 +173,7 @@ TEST(a_condition_that_fails_says_disabled) {
   assert_false(bus.inputs().valve_enabled.value);
 }
 
-TEST(the_machines_own_frames_of_ours_are_foreign) {
-  Bus bus;
+TEST(the_machines_own_frames_of_ours_are_foreign, Bus bus) {
   const CanFrame speed{dbc::common::EEC1::kId,      true, false, false, false, 8,
                        dbc::common::EEC1{}.encode()};
   bus.receiver.accept(speed, bus.now);
@@ -257,8 +248,7 @@ TEST(our_own_bus_as_a_table_is_the_same) {
   assert_true(valid > 1000 && states > 20);
 }
 
-TEST(our_commands_from_another_are_a_second_controller) {
-  Bus bus;
+TEST(our_commands_from_another_are_a_second_controller, Bus bus) {
   CanFrame frame;
   frame.id = kLevers;
   frame.length = 8;

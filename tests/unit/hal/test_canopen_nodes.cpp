@@ -55,8 +55,7 @@ struct Bus {
 };
 
 /// EAO series 09 keypad manual, boot-up sequence: 70B 00, 70B 7F, 000 01 0B, 70B 05.
-TEST(a_node_is_started_as_printed) {
-  Bus bus;
+TEST(a_node_is_started_as_printed, Bus bus) {
   bus.says(0x00);
   bus.pass();
   const NodeStart start = bus.receiver.take_start(bus.now);
@@ -80,8 +79,7 @@ TEST(a_node_is_started_as_printed) {
   assert_int_equal(bus.receiver.take_start(bus.now).id, 0);
 }
 
-TEST(a_node_that_sleeps_on_is_told_again) {
-  Bus bus;
+TEST(a_node_that_sleeps_on_is_told_again, Bus bus) {
   int told = 0;
   for (int cycle = 0; cycle < 40; ++cycle) {
     if (cycle % 10 == 0) {
@@ -96,8 +94,7 @@ TEST(a_node_that_sleeps_on_is_told_again) {
   assert_int_equal(bus.receiver.take_start(bus.now).id, 0);
 }
 
-TEST(only_an_operational_nodes_values_count) {
-  Bus bus;
+TEST(only_an_operational_nodes_values_count, Bus bus) {
   bus.position();
   bus.pass();
   assert_true(bus.stroke().validity == Validity::kNotReceived);
@@ -130,8 +127,7 @@ TEST(a_node_that_reboots_is_no_source) {
   }
 }
 
-TEST(a_heartbeat_that_is_lost) {
-  Bus bus;
+TEST(a_heartbeat_that_is_lost, Bus bus) {
   bus.says(0x05);
   for (int cycle = 0; cycle <= 25; ++cycle) {
     bus.position();
@@ -144,8 +140,7 @@ TEST(a_heartbeat_that_is_lost) {
 }
 
 /// CiA 301: bytes 0 and 1 the code, 2 the error register. Its values go on, and do not count.
-TEST(an_emergency_makes_values_errors) {
-  Bus bus;
+TEST(an_emergency_makes_values_errors, Bus bus) {
   bus.says(0x05);
   bus.position();
   bus.pass();
@@ -166,8 +161,7 @@ TEST(an_emergency_makes_values_errors) {
   assert_int_equal(bus.receiver.emergency().id, 0);
 }
 
-TEST(a_node_that_boots_tells_its_emergency_anew) {
-  Bus bus;
+TEST(a_node_that_boots_tells_its_emergency_anew, Bus bus) {
   bus.says(0x05);
   bus.take(0x080 + kNode, 8, {0x00, 0x10, 0x01});
   bus.says(0x7F);
@@ -176,8 +170,7 @@ TEST(a_node_that_boots_tells_its_emergency_anew) {
   assert_int_equal(bus.receiver.emergency().code, 0);
 }
 
-TEST(what_is_no_emergency) {
-  Bus bus;
+TEST(what_is_no_emergency, Bus bus) {
   bus.says(0x05);
   bus.take(0x080 + kNode, 8, {0x10, 0x50, 0x01}, 0);  // On the other bus.
   bus.take(0x080 + kNode, 7, {0x10, 0x50, 0x01});
@@ -189,8 +182,7 @@ TEST(what_is_no_emergency) {
   assert_int_equal(bus.receiver.emergency().id, 0);
 }
 
-TEST(what_is_no_heartbeat) {
-  Bus bus;
+TEST(what_is_no_heartbeat, Bus bus) {
   bus.says(0x05, 0);  // On the other bus.
   bus.take(0x700 + kNode, 2, {0x05});
   bus.take(0x700 + kNode + 1, 1, {0x05});

@@ -42,8 +42,7 @@ struct Bus {
   }
 };
 
-TEST(nobody_heard_is_not_late) {
-  Bus bus;
+TEST(nobody_heard_is_not_late, Bus bus) {
   assert_false(bus.challenge.is_late(false));
   bus.ask();
   for (int i = 0; i < 20; ++i) {
@@ -53,8 +52,7 @@ TEST(nobody_heard_is_not_late) {
   }
 }
 
-TEST(each_station_has_to_answer_once) {
-  Bus bus;
+TEST(each_station_has_to_answer_once, Bus bus) {
   Bus::say(bus.echoes.driver, 0, bus.now);
   bus.cycle();
   assert_true(bus.challenge.is_late(false));
@@ -82,8 +80,7 @@ TEST(the_answer_has_its_time) {
 }
 
 // Said in the cycle in which the time ends, not in the one after it.
-TEST(an_answer_is_missed_when_its_time_is_over) {
-  Bus bus;
+TEST(an_answer_is_missed_when_its_time_is_over, Bus bus) {
   bus.ask_and_answer(1, 1);
   const TimeUs sent_us = bus.now;
   bus.ask();
@@ -118,8 +115,7 @@ TEST(only_the_last_stamp_said_as_valid_is_an_answer) {
   assert_true(late_after(0, Validity::kOutOfRange));
 }
 
-TEST(two_in_a_row_count_in_motion) {
-  Bus bus;
+TEST(two_in_a_row_count_in_motion, Bus bus) {
   bus.ask_and_answer(1, 1);
   for (int i = 0; i < 2; ++i) {
     bus.ask_and_answer(1, 8);
@@ -136,8 +132,7 @@ TEST(two_in_a_row_count_in_motion) {
 }
 
 // A cycle of ours that comes too late to tell, though the frame is there.
-TEST(a_frame_that_is_read_too_late_is_late) {
-  Bus bus;
+TEST(a_frame_that_is_read_too_late_is_late, Bus bus) {
   const std::uint32_t stamp = bus.ask();
   bus.now += 90'000;
   Bus::say(bus.echoes.driver, stamp, bus.now);
@@ -154,8 +149,7 @@ TEST(a_frame_that_is_read_too_late_is_late) {
 }
 
 // As long as nothing is heard of a station it is missing, not late; and late when it is back.
-TEST(a_silent_station_is_missing) {
-  Bus bus;
+TEST(a_silent_station_is_missing, Bus bus) {
   bus.ask_and_answer(1, 1, 10);
   Bus::say(bus.echoes.driver, 0, bus.now);
   Bus::say(bus.echoes.machine, 0, bus.now);
@@ -194,8 +188,7 @@ TEST(a_station_that_cannot_answer_is_not_checked_and_said) {
   }
 }
 
-TEST(stamps_go_round_without_0) {
-  Challenge challenge;
+TEST(stamps_go_round_without_0, Challenge challenge) {
   for (int i = 1; i <= 64255; ++i) {
     assert_int_equal(challenge.next_stamp(), i);
     challenge.sent(0);

@@ -51,8 +51,7 @@ struct Bus {
   }
 };
 
-TEST(nothing_is_said_once_a_second) {
-  Bus bus;
+TEST(nothing_is_said_once_a_second, Bus bus) {
   bus.expect({}, 1, 0);
   assert_false(bus.content.red_stop || bus.content.amber_warning);
   assert_int_equal(bus.content.fmi, 0);
@@ -61,8 +60,7 @@ TEST(nothing_is_said_once_a_second) {
   bus.expect({}, 100, 0);
 }
 
-TEST(a_new_fault_is_said_at_once) {
-  Bus bus;
+TEST(a_new_fault_is_said_at_once, Bus bus) {
   bus.expect({}, 1, 0);
   bus.now += 20 * kCallUs;
   const FaultSet active = set_of({Fault::kBusOff});
@@ -75,16 +73,14 @@ TEST(a_new_fault_is_said_at_once) {
   bus.expect({}, 100, 0);
 }
 
-TEST(a_fault_from_the_start_is_said_once) {
-  Bus bus;
+TEST(a_fault_from_the_start_is_said_once, Bus bus) {
   bus.now = 10 * kSecondUs;
   const FaultSet active = set_of({Fault::kBusOff});
   bus.expect(active, 1, spn_of(Fault::kBusOff));
   bus.expect(active, 100, spn_of(Fault::kBusOff));
 }
 
-TEST(several_new_faults_come_one_in_each_call) {
-  Bus bus;
+TEST(several_new_faults_come_one_in_each_call, Bus bus) {
   bus.expect({}, 1, 0);
   const FaultSet active = set_of({Fault::kStrokeMissing, Fault::kSpoolStuck, Fault::kSensorError});
   bus.expect(active, 1, spn_of(Fault::kStrokeMissing));
@@ -178,8 +174,7 @@ TEST(lamps_are_of_all_active) {
 
 // A fault that comes and goes with every call is on the bus once a second beside its turns, and its
 // appearances are counted up to 126.
-TEST(a_flickering_fault_does_not_flood) {
-  Bus bus;
+TEST(a_flickering_fault_does_not_flood, Bus bus) {
   const FaultSet active = set_of({Fault::kBusPassive});
   int frames = 0;
   for (int i = 0; i < 200; ++i) {
@@ -192,8 +187,7 @@ TEST(a_flickering_fault_does_not_flood) {
   assert_int_equal(bus.content.occurrences, 126);
 }
 
-TEST(occurrences_are_counted_for_each) {
-  Bus bus;
+TEST(occurrences_are_counted_for_each, Bus bus) {
   for (int times = 1; times <= 3; ++times) {
     bus.expect(set_of({Fault::kBusOff}), 1, spn_of(Fault::kBusOff));
     assert_int_equal(bus.content.occurrences, times);
@@ -206,8 +200,7 @@ TEST(occurrences_are_counted_for_each) {
 }
 
 // A call may be up to 5 ms early.
-TEST(jitter_keeps_the_period) {
-  Bus bus;
+TEST(jitter_keeps_the_period, Bus bus) {
   bus.expect({}, 1, 0);
   bus.now = kSecondUs - 5001;
   assert_false(bus.call({}));
@@ -229,8 +222,7 @@ TEST(a_fault_that_comes_back_soon_waits) {
   }
 }
 
-TEST(a_clock_that_goes_back_does_not_silence) {
-  Bus bus;
+TEST(a_clock_that_goes_back_does_not_silence, Bus bus) {
   bus.now = 10 * kSecondUs;
   bus.expect(set_of({Fault::kBusOff}), 1, spn_of(Fault::kBusOff));
   bus.now = kSecondUs;

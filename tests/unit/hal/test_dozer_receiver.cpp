@@ -13,8 +13,7 @@ using DozerFeed = Feed<DozerReceiver>;
 
 constexpr Physical valid(double value) { return {value, RawState::kValid}; }
 
-TEST(blade) {
-  DozerFeed feed;
+TEST(blade, DozerFeed feed) {
   const TimeUs stroke_us = feed.send(bus::BladeStroke{valid(0.31)});
   const TimeUs valve_us =
       feed.send(bus::ValveState{{bus::ValveState::Enabled::kOn, RawState::kValid}, valid(-0.25)});
@@ -24,8 +23,7 @@ TEST(blade) {
   assert_signal(in.valve_enabled, 1.0, valve_us);
 }
 
-TEST(body) {
-  DozerFeed feed;
+TEST(body, DozerFeed feed) {
   const TimeUs position_us = feed.send(bus::BodyPosition{valid(-1234.5678), valid(-0.35)});
   const TimeUs pitch_us = feed.send(bus::BodyPitch{valid(-0.12), valid(0.34)});
   const TimeUs velocity_us = feed.send(bus::BodyVelocity{valid(1.6), valid(-0.2)});
@@ -38,8 +36,7 @@ TEST(body) {
   assert_signal(in.climb_mps, -0.2, velocity_us);
 }
 
-TEST(tracks) {
-  DozerFeed feed;
+TEST(tracks, DozerFeed feed) {
   const TimeUs left_us = feed.send(bus::LeftTransmission{valid(0.5), valid(0.75), valid(20e6)});
   const TimeUs right_us = feed.send(bus::RightTransmission{valid(-0.25), valid(0.35), valid(5e6)});
   const TimeUs speed_us = feed.send(bus::TrackSpeed{valid(1.1), valid(-0.9)});
@@ -67,8 +64,7 @@ TEST(one_signal_is_lost_the_other_stays) {
 }
 
 // Dig is an excavator's: the frame is refused, and the controller hears of it.
-TEST(another_kinds_task_is_out_of_range) {
-  DozerReceiver receiver;
+TEST(another_kinds_task_is_out_of_range, DozerReceiver receiver) {
   const TimeUs now = synchronise<test::DozerCommand>(receiver);
   assert_int_equal(receiver.inputs().driver.task.value, Task::kGrade);
   receiver.accept(frame_with<test::DozerCommand>(bus::OperatorCommand::kTask, 1, 3), now + 1);

@@ -73,8 +73,7 @@ void move(DozerOutputs& outputs) {
   outputs.motor_ratio = {0.35, 0.8};
 }
 
-TEST(commands) {
-  DozerSender sender;
+TEST(commands, DozerSender sender) {
   sender.call(kStartUs);
   assert_commands(sender, kNeutral);
 
@@ -129,8 +128,7 @@ TEST(brake) {
   }
 }
 
-TEST(motion_and_grade) {
-  DozerSender sender;
+TEST(motion_and_grade, DozerSender sender) {
   DozerStatus& out = sender.outputs.status;
   out.limit = {LimitKind::kTransmissionFlow, 1};
   out.wanted_speed_mps = 1.25;

@@ -84,8 +84,7 @@ TEST(wrong_crc_breaks_the_run_of_synchronisation) {
   assert_int_equal(link.take(5), E2eCheck::kOk);
 }
 
-TEST(synchronising_restarts) {
-  Link repeated;
+TEST(synchronising_restarts, Link repeated) {
   (void)repeated.take(0);
   (void)repeated.take(1);
   assert_int_equal(repeated.take(1), E2eCheck::kRepeated);
@@ -317,8 +316,7 @@ TEST(silence_needs_three) {
   assert_int_equal(halting.take(4), E2eCheck::kOk);
 }
 
-TEST(bad_frames_alone_are_no_data) {
-  Link link;
+TEST(bad_frames_alone_are_no_data, Link link) {
   link.now = -kCycleUs;  // time 0 must not count as a good frame's
   assert_int_equal(link.take(E2ePayload{1}), E2eCheck::kWrongCrc);
   assert_int_equal(e2e_status(kConfig, link.state, link.now), E2eCheck::kNoNewData);
@@ -326,13 +324,9 @@ TEST(bad_frames_alone_are_no_data) {
 
 TEST(frozen_counter_is_silence) {
   Link link = synchronised_at(2);
-  for (int i = 0; i < 4; ++i) {
-    assert_int_equal(link.take(2), E2eCheck::kRepeated);
-  }
+  repeat(4, [&] { assert_int_equal(link.take(2), E2eCheck::kRepeated); });
   assert_int_equal(link.take(2), E2eCheck::kSynchronising);
-  for (int i = 0; i < 100; ++i) {
-    assert_false(e2e_accepted(link.take(2)));
-  }
+  repeat(100, [&] { assert_false(e2e_accepted(link.take(2))); });
 }
 
 TEST(clock_that_runs_back_is_no_silence) {

@@ -66,8 +66,7 @@ TEST(sixteen_frames_are_the_window) {
   }
 }
 
-TEST(kinds_are_counted_apart) {
-  Watch watch;
+TEST(kinds_are_counted_apart, Watch watch) {
   watch.note(E2eMark::kSequence, 2);
   watch.note(E2eMark::kCorrupt, 2);
   assert_int_equal(watch.fault(), Fault::kNone);
@@ -80,8 +79,7 @@ TEST(kinds_are_counted_apart) {
 }
 
 // A CRC that fits another message is a wrong CRC all the same.
-TEST(masquerades_are_corrupt_too) {
-  Watch watch;
+TEST(masquerades_are_corrupt_too, Watch watch) {
   watch.note(E2eMark::kMasquerade, 2);
   watch.note(E2eMark::kCorrupt);
   assert_int_equal(watch.fault(), Fault::kMessageCorrupt);
@@ -89,8 +87,7 @@ TEST(masquerades_are_corrupt_too) {
   assert_int_equal(watch.fault(), Fault::kMessageMasquerade);
 }
 
-TEST(a_second_without_frames_empties_it) {
-  Watch watch;
+TEST(a_second_without_frames_empties_it, Watch watch) {
   watch.note(E2eMark::kCorrupt, 3);
   watch.now += kE2eWindowForget_us;
   assert_int_equal(watch.fault(), Fault::kMessageCorrupt);

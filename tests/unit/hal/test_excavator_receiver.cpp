@@ -10,8 +10,7 @@ using dbc::RawState;
 
 using ExcavatorFeed = Feed<ExcavatorReceiver>;
 
-TEST(strokes_and_pressures) {
-  ExcavatorFeed feed;
+TEST(strokes_and_pressures, ExcavatorFeed feed) {
   const TimeUs boom_us = feed.send(bus::BoomStroke{{1.1, RawState::kValid}});
   const TimeUs arm_us = feed.send(bus::ArmStroke{{1.2, RawState::kValid}});
   const TimeUs bucket_us = feed.send(bus::BucketStroke{{1.3, RawState::kValid}});
@@ -32,8 +31,7 @@ TEST(strokes_and_pressures) {
   assert_int_equal(rejected(feed.receiver.total()), 0);
 }
 
-TEST(pumps_engine_and_valve) {
-  ExcavatorFeed feed;
+TEST(pumps_engine_and_valve, ExcavatorFeed feed) {
   const TimeUs pump_us =
       feed.send(bus::PumpState{{0.25, RawState::kValid}, {0.75, RawState::kValid}});
   const TimeUs engine_us =
@@ -69,8 +67,7 @@ TEST(swing) {
 }
 
 // Without a swing drive its frames, good or bad, are nobody's.
-TEST(another_machines_swing_is_foreign) {
-  ExcavatorFeed feed;
+TEST(another_machines_swing_is_foreign, ExcavatorFeed feed) {
   CanFrame corrupt = frame_of(filled<bus::SwingState>(1000), 1);
   corrupt.data[3] ^= 1U;
   for (int n = 0; n < 10; ++n) {
@@ -96,8 +93,7 @@ void assert_all(const Signal<std::array<double, count>>& signal,
 }
 
 /// A lever that the station does not have is at rest; one that is broken breaks all.
-TEST(levers) {
-  ExcavatorFeed feed;
+TEST(levers, ExcavatorFeed feed) {
   bus::OperatorAxes axes{{0.2, RawState::kValid},
                          {-0.4, RawState::kValid},
                          {1.0, RawState::kValid},
@@ -115,8 +111,7 @@ TEST(levers) {
   assert_int_equal(lever.validity, Validity::kError);
 }
 
-TEST(duties_to_try_and_their_windows) {
-  ExcavatorFeed feed;
+TEST(duties_to_try_and_their_windows, ExcavatorFeed feed) {
   const TimeUs duty_us = feed.send(bus::CommissionDuty{
       {0.25, RawState::kValid}, {0.0, RawState::kNotAvailable}, {-1.0, RawState::kValid}});
   assert_all<3>(feed.receiver.inputs().tried_ratio, {0.25, 0.0, -1.0}, duty_us);
@@ -141,8 +136,7 @@ TEST(duties_to_try_and_their_windows) {
 }
 
 /// Nobody knows whose window it is.
-TEST(a_window_of_no_drive_is_nobodys) {
-  ExcavatorFeed feed;
+TEST(a_window_of_no_drive_is_nobodys, ExcavatorFeed feed) {
   bus::CommissionWindow window;
   window.drive = {bus::CommissionWindow::Drive::kBoom, RawState::kNotAvailable};
   static_cast<void>(feed.send(window));
@@ -160,8 +154,7 @@ TEST(one_signal_is_lost_the_other_stays) {
 }
 
 // Grade is a dozer's: the frame is refused.
-TEST(another_kinds_task_is_out_of_range) {
-  ExcavatorReceiver receiver;
+TEST(another_kinds_task_is_out_of_range, ExcavatorReceiver receiver) {
   const TimeUs now = synchronise<bus::OperatorCommand>(receiver);
   receiver.accept(frame_with<bus::OperatorCommand>(bus::OperatorCommand::kTask, 2, 3), now);
   assert_int_equal(receiver.inputs().driver.task.value, Task::kCommission);

@@ -66,8 +66,7 @@ void assert_neutral(const ExcavatorSender& sender) {
   }
 }
 
-TEST(duty) {
-  ExcavatorSender sender;
+TEST(duty, ExcavatorSender sender) {
   sender.call(kStartUs);
   assert_neutral(sender);
 
@@ -114,8 +113,7 @@ void assert_swing(const SwingSender& sender, bool on, double duty) {
   assert_near(swing.swing_duty_ratio.value, duty, 1e-12);
 }
 
-TEST(swing_duty) {
-  SwingSender sender;
+TEST(swing_duty, SwingSender sender) {
   sender.call(kStartUs);
   assert_swing(sender, false, 0.0);
   sender.outputs.enable = true;
@@ -139,8 +137,7 @@ TEST(swing_duty) {
   }
 }
 
-TEST(task_status) {
-  SwingSender sender;
+TEST(task_status, SwingSender sender) {
   ExcavatorStatus& out = sender.outputs.status;
   out.swing_wanted_radps = -0.5;
   out.progress = {false, 3, 2, StepKind::kDump, 0.25};
@@ -203,8 +200,7 @@ TEST(swash) {
   }
 }
 
-TEST(learnt_valves) {
-  ExcavatorSender sender;
+TEST(learnt_valves, ExcavatorSender sender) {
   auto& edges = sender.outputs.status.edges;
   edges[0] = {{true, 0.031}, {false, 0.02}};
   edges[1] = {{false, 0.0}, {true, -0.056}};
@@ -245,8 +241,7 @@ TEST(tip_load) {
   }
 }
 
-TEST(motion_and_hydraulics) {
-  ExcavatorSender sender;
+TEST(motion_and_hydraulics, ExcavatorSender sender) {
   ExcavatorStatus& out = sender.outputs.status;
   out.wanted_velocity_mps = {0.1, -0.2, 0.3};
   out.pump_pressure_pa = {20e6, 30e6};

@@ -55,8 +55,7 @@ TEST(printed_slope) {
   }
 }
 
-TEST(printed_rates_and_forces) {
-  Arm arm;
+TEST(printed_rates_and_forces, Arm arm) {
   arm.receiver.accept(frame(kRatesId, kRates), kNow);
   arm.receiver.accept(frame(kForcesId, kForces), kNow);
   assert_true(arm.imu().rates.validity == Validity::kValid);
@@ -78,8 +77,7 @@ TEST(printed_rates_and_forces) {
   assert_true(arm.receiver.inputs().imu[0].rates.validity == Validity::kNotReceived);
 }
 
-TEST(rates_scale) {
-  Arm arm;
+TEST(rates_scale, Arm arm) {
   dbc::Payload rates = kRates;
   rates[1] = 0x7E;  // 256 counts of 1/128 deg/s.
   rates[3] = 0x7C;
@@ -91,8 +89,7 @@ TEST(rates_scale) {
   assert_true(arm.imu().rates.value.latency_s < 0.0);
 }
 
-TEST(a_sensor_in_doubt_says_so) {
-  Arm arm;
+TEST(a_sensor_in_doubt_says_so, Arm arm) {
   dbc::Payload rates = kRates;
   const struct {
     std::uint8_t merit;
@@ -119,8 +116,7 @@ TEST(a_sensor_in_doubt_says_so) {
   assert_true(arm.imu().forces.validity == Validity::kNotAvailable);
 }
 
-TEST(refused_frames_leave_the_last_value) {
-  Arm arm;
+TEST(refused_frames_leave_the_last_value, Arm arm) {
   arm.receiver.accept(frame(kRatesId, kRates), kNow);
   const TimeUs later = kNow + kPeriod;
   CanFrame bad = frame(kRatesId, kRates);
@@ -139,8 +135,7 @@ TEST(refused_frames_leave_the_last_value) {
   assert_true(arm.imu().rates.validity == Validity::kValid);
 }
 
-TEST(a_second_sender_is_an_error) {
-  Arm arm;
+TEST(a_second_sender_is_an_error, Arm arm) {
   TimeUs now = kNow;
   // Frames of two cycles in one, and a clock that is a tenth fast, are sound.
   for (int i = 0; i < 100; ++i) {
@@ -157,8 +152,7 @@ TEST(a_second_sender_is_an_error) {
   assert_in_range(errors, 8, 20);
 }
 
-TEST(others_stay_foreign) {
-  Arm arm;
+TEST(others_stay_foreign, Arm arm) {
   arm.receiver.accept(frame(0x0CF02AE4, kRates), kNow);
   arm.receiver.accept(frame(kSlopeId, kSlope), kNow);
   CanFrame short_id = frame(0x2A, kRates);

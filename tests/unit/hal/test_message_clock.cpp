@@ -7,8 +7,7 @@
 
 using namespace graben;
 
-TEST(what_passes_and_is_not_sent_is_lag) {
-  MessageClock clock;
+TEST(what_passes_and_is_not_sent_is_lag, MessageClock clock) {
   advance(clock, 10'000, 10'000);
   assert_int_equal(clock.lag_us, 0);  // never below
   advance(clock, 40'000, 10'000);
@@ -25,8 +24,7 @@ TEST(more_than_60_ms_is_stale) {
   assert_true(is_stale({60'001}));
 }
 
-TEST(the_lag_does_not_overflow) {
-  MessageClock clock;
+TEST(the_lag_does_not_overflow, MessageClock clock) {
   advance(clock, 2000 * kSecondUs, 0);
   assert_int_equal(clock.lag_us, 1000 * kSecondUs);
 }

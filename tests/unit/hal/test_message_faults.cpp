@@ -42,9 +42,7 @@ TEST(three_wrong_frames_are_a_fault) {
     assert_int_equal(next(true), Fault::kNone);
     assert_int_equal(next(false), Fault::kNone);
     assert_int_equal(next(false), wrong.fault);
-    for (int i = 0; i < 11; ++i) {
-      assert_int_equal(next(true), wrong.fault);
-    }
+    repeat(11, [&] { assert_int_equal(next(true), wrong.fault); });
     assert_int_equal(next(true), wrong.fault);
     assert_int_equal(next(true), Fault::kNone);
   }
@@ -76,9 +74,7 @@ TEST_FOR_EACH(windows_are_each_messages_own, Bus, ExcavatorBus, DozerBus) {
     CanFrame frame = frame_of(filled<Message>(2000), 3);
     frame.data[2] ^= 0x10;
     receiver.accept(frame, now);
-    for (int i = 0; i < 5; ++i) {
-      receiver.accept(frame_of(filled<Message>(1000), 2), now);
-    }
+    repeat(5, [&] { receiver.accept(frame_of(filled<Message>(1000), 2), now); });
   });
   const int messages = count_of(typename Bus::Protected{});
   assert_int_equal(receiver.total().wrong_crc, messages);
@@ -87,8 +83,7 @@ TEST_FOR_EACH(windows_are_each_messages_own, Bus, ExcavatorBus, DozerBus) {
 }
 
 // Two senders: every second frame conflicts, the first sender's values stay.
-TEST(two_senders_of_one_message_are_a_fault) {
-  ExcavatorReceiver receiver;
+TEST(two_senders_of_one_message_are_a_fault, ExcavatorReceiver receiver) {
   TimeUs now = synchronise<bus::BoomStroke>(receiver);
   for (std::uint8_t counter = 3; counter < 6; ++counter) {
     assert_true(receiver.message_faults(now).empty());
@@ -100,8 +95,7 @@ TEST(two_senders_of_one_message_are_a_fault) {
   assert_true(receiver.message_faults(now).has(Fault::kMessageSequence));
 }
 
-TEST(a_burst_of_one_message_is_cut) {
-  ExcavatorReceiver receiver;
+TEST(a_burst_of_one_message_is_cut, ExcavatorReceiver receiver) {
   const TimeUs now = synchronise<bus::PumpState>(receiver) + 20 * kMillisecondUs;
   for (std::uint8_t counter = 3; counter < 13; ++counter) {
     receiver.accept(frame_of(filled<bus::PumpState>(1000U + counter), counter), now);
@@ -121,9 +115,7 @@ TEST_FOR_EACH(surplus_is_refused_unseen, Bus, ExcavatorBus, DozerBus) {
     TimeUs now = synchronise<Message>(receiver);
     now += Message::kCycleTimeMs * kMillisecondUs;
     CanFrame repeated = frame_of(filled<Message>(1000), 2);
-    for (int i = 0; i < MessageLinks::kMostAtOnce; ++i) {
-      receiver.accept(repeated, now);
-    }
+    repeat(MessageLinks::kMostAtOnce, [&] { receiver.accept(repeated, now); });
     const LinkCounters before = receiver.link(Message::kId);
     for (int surplus = 1; surplus <= 3; ++surplus) {
       assert_true(receiver.message_faults(now).empty());
@@ -141,14 +133,11 @@ TEST_FOR_EACH(surplus_is_refused_unseen, Bus, ExcavatorBus, DozerBus) {
 }
 
 // However many there are: the wrong CRCs are still named beside them.
-TEST(surplus_hides_nothing) {
-  ExcavatorReceiver receiver;
+TEST(surplus_hides_nothing, ExcavatorReceiver receiver) {
   const TimeUs now = synchronise<bus::BoomStroke>(receiver) + 10 * kMillisecondUs;
   CanFrame frame = frame_of(filled<bus::BoomStroke>(2000), 3);
   frame.data[2] ^= 0x10;
-  for (int i = 0; i < 300; ++i) {
-    receiver.accept(frame, now);
-  }
+  repeat(300, [&] { receiver.accept(frame, now); });
   assert_int_equal(receiver.link(bus::BoomStroke::kId).wrong_crc, MessageLinks::kMostAtOnce);
   assert_int_equal(receiver.total().surplus, 300 - MessageLinks::kMostAtOnce);
   assert_true(receiver.message_faults(now).has(Fault::kMessageCorrupt));

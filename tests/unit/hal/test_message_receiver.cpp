@@ -273,8 +273,7 @@ TEST_FOR_EACH(same_machine, Bus, ExcavatorBus, DozerBus) {
                    Validity::kNotAvailable);
 }
 
-TEST(rejected_sum_saturates) {
-  LinkCounters counters;
+TEST(rejected_sum_saturates, LinkCounters counters) {
   counters.wrong_crc = UINT32_MAX;
   assert_int_equal(rejected(counters), UINT32_MAX);
   counters.wrong_length = 1;

@@ -29,7 +29,7 @@ struct Dozer {
   static constexpr std::uint8_t kDbcVersion = dbc::dozer::kDbcVersion;
 };
 
-#define TEST_ON_BOTH(name) TEST_OF_EACH(name, Kind, Excavator, Dozer)
+#define TEST_OF_BOTH_SENDERS(name) TEST_OF_EACH(name, Kind, Excavator, Dozer)
 
 template <class Kind>
 using SenderOf = Sender<typename Kind::Transmitter>;

@@ -75,9 +75,7 @@ TEST(what_is_lost_or_begins_anew_is_no_lag) {
   next(50'000, 1);  // a pause, after which it synchronises
   next(kCycleUs, 1);
   next(kCycleUs, 1);
-  for (int i = 0; i < 6; ++i) {
-    next(2 * kCycleUs, 1);
-  }
+  repeat(6, [&] { next(2 * kCycleUs, 1); });
   assert_int_equal(receiver.link(Message::kId).wrong_counter, 0);
 }
 
@@ -93,9 +91,7 @@ TEST(lag_ends_with_the_queue_or_in_silence) {
     receiver.accept(frame_of(filled<Message>(1000), counter), now);
     return receiver.message_faults(now).has(Fault::kStreamLate);
   };
-  for (int i = 0; i < 6; ++i) {
-    assert_false(next(2 * kCycleUs, 1));
-  }
+  repeat(6, [&] { assert_false(next(2 * kCycleUs, 1)); });
   assert_true(next(2 * kCycleUs, 1));
   const FaultSet still = receiver.message_faults(now + 40'000);
   assert_true(still.has(Fault::kStreamLate));
@@ -123,8 +119,7 @@ TEST_FOR_EACH(own_ids_are_another_controllers, Bus, ExcavatorBus, DozerBus) {
 }
 
 // Others' frames are not, nor what asks for ours.
-TEST(other_ids_are_no_controllers) {
-  DozerReceiver receiver;
+TEST(other_ids_are_no_controllers, DozerReceiver receiver) {
   CanFrame frame;
   frame.length = 8;
   frame.id = dbc::dozer::SpoolCommand::kId + 1;

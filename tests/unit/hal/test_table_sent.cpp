@@ -31,8 +31,7 @@ struct Sent {
   }
 };
 
-TEST(duties_become_levers) {
-  Sent sent;
+TEST(duties_become_levers, Sent sent) {
   sent.outputs.enable = true;
   sent.outputs.duty_ratio[0] = 0.5;
   sent.cycle();
@@ -48,8 +47,7 @@ TEST(duties_become_levers) {
   assert_true(sent.transmitter.is_command(kLevers));
 }
 
-TEST(without_enable_all_is_neutral) {
-  Sent sent;
+TEST(without_enable_all_is_neutral, Sent sent) {
   sent.outputs.duty_ratio[0] = 0.5;
   sent.cycle();
   assert_int_equal(sent.find(kLevers)->data[0], 0);
@@ -61,8 +59,7 @@ TEST(without_enable_all_is_neutral) {
   assert_int_equal(sent.find(kLevers)->data[0], 0);
 }
 
-TEST(a_change_of_enable_does_not_wait) {
-  Sent sent;
+TEST(a_change_of_enable_does_not_wait, Sent sent) {
   sent.cycle();
   const int first = sent.find(kSetting)->data[7];
   sent.cycle();
@@ -74,8 +71,7 @@ TEST(a_change_of_enable_does_not_wait) {
   assert_int_equal(sent.find(kSetting)->data[7], first + 1);
 }
 
-TEST(what_cannot_say_cut_falls_silent) {
-  Sent sent;
+TEST(what_cannot_say_cut_falls_silent, Sent sent) {
   sent.outputs.pilot_known = true;
   sent.outputs.pilot_cut = true;
   for (int cycle = 0; cycle < TableTransmitter::kNeutralCycles; ++cycle) {

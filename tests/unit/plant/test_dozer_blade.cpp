@@ -183,9 +183,7 @@ TEST(oil_is_accounted_for) {
 TEST(the_load_check_holds) {
   ImplementCircuit circuit(dozer_9t(), lift_section(dozer_9t()));
   circuit.set_command(0.6);
-  for (int i = 0; i < 1000; ++i) {
-    circuit.step(5e-4);
-  }
+  repeat(1000, [&] { circuit.step(5e-4); });
   assert_near(circuit.solve(circuit.pump_flow_m3ps(157.08), {24e6, 1e9}, {1e6, 1e9}).supply, 0.0,
               0.0);
   assert_near(circuit.flows().cap_in, 0.0, 0.0);

@@ -13,8 +13,7 @@ double shown_stroke(const DozerRig& rig) {
   return last<dozer_bus::BladeStroke>(rig).blade_stroke_m.value;
 }
 
-TEST(the_stroke_sensor_fails_in_its_ways) {
-  DozerRig rig;
+TEST(the_stroke_sensor_fails_in_its_ways, DozerRig rig) {
   rig.spool_for(30, true, -0.5);
   StrokeFault& fault = rig.machine.faults().stroke;
   const double before_m = shown_stroke(rig);
@@ -39,8 +38,7 @@ TEST(the_stroke_sensor_fails_in_its_ways) {
   assert_near(shown_stroke(rig), rig.machine.plant().blade_stroke_m(), 1e-4);
 }
 
-TEST(the_spool_can_be_held_or_open_uncommanded) {
-  DozerRig rig;
+TEST(the_spool_can_be_held_or_open_uncommanded, DozerRig rig) {
   rig.machine.faults().spool_offset_ratio = 0.25;
   rig.spool_for(30, true, 0.3);
   assert_near(rig.blade_spool(), 0.55, 1e-3);
@@ -76,8 +74,7 @@ std::array<ReadingFault*, 6> faults_of(PoseFaults& pose) {
 }
 
 // Each switch at its own signal and at no other.
-TEST(each_signal_of_the_pose_fails_alone) {
-  DozerRig rig;
+TEST(each_signal_of_the_pose_fails_alone, DozerRig rig) {
   rig.pumps_for(50, false, 0.5, 0.5);
   const std::array<ReadingFault*, 6> faults = faults_of(rig.machine.faults().pose);
   for (std::size_t which = 0; which < faults.size(); ++which) {
@@ -127,8 +124,7 @@ TEST(each_signal_of_the_pose_sticks_alone) {
   }
 }
 
-TEST(the_whole_pose_can_be_lost) {
-  DozerRig rig;
+TEST(the_whole_pose_can_be_lost, DozerRig rig) {
   rig.machine.faults().pose.set_state(RawState::kError);
   rig.cycle();
   for (const dbc::Physical& signal : pose_on(rig).signal) {
@@ -141,8 +137,7 @@ TEST(the_whole_pose_can_be_lost) {
   }
 }
 
-TEST(displacements_can_run_away_and_be_shown_wrong) {
-  DozerRig rig;
+TEST(displacements_can_run_away_and_be_shown_wrong, DozerRig rig) {
   PathFaults& left = rig.machine.faults().path[kLeft];
   PathFaults& right = rig.machine.faults().path[kRight];
   left.pump.held_ratio = 0.9;
@@ -168,8 +163,7 @@ TEST(displacements_can_run_away_and_be_shown_wrong) {
   assert_near(last<dozer_bus::RightTransmission>(rig).motor_ratio.value, 0.44, 1e-4);
 }
 
-TEST(track_speeds_can_be_shown_wrong) {
-  DozerRig rig;
+TEST(track_speeds_can_be_shown_wrong, DozerRig rig) {
   rig.pumps_for(100, false, 0.5, 0.5);
   rig.machine.faults().path[kLeft].speed.stuck = true;
   rig.machine.faults().path[kRight].speed.jump = -0.4;
@@ -185,8 +179,7 @@ TEST(track_speeds_can_be_shown_wrong) {
   assert_true(last<dozer_bus::TrackSpeed>(rig).right_track_mps.state == RawState::kValid);
 }
 
-TEST(commands_can_be_lost) {
-  DozerRig rig;
+TEST(commands_can_be_lost, DozerRig rig) {
   rig.spool_for(10, true, 0.5);
   rig.machine.faults().loses_spool_commands = true;
   rig.spool_for(10, true, 0.5);
@@ -200,8 +193,7 @@ TEST(commands_can_be_lost) {
   assert_int_equal(rig.machine.pump_counters().timeouts, 1);
 }
 
-TEST(frames_can_be_spoilt) {
-  DozerRig rig;
+TEST(frames_can_be_spoilt, DozerRig rig) {
   DozerFaults& faults = rig.machine.faults();
   rig.cycles(10);
   faults.set_frozen_counter(dozer_bus::BladeStroke::kId, true);

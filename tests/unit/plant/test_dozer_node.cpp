@@ -10,8 +10,7 @@ using namespace graben::plant;
 using namespace graben::plant::test;
 using dbc::RawState;
 
-TEST(messages_come_at_their_rates) {
-  DozerRig rig;
+TEST(messages_come_at_their_rates, DozerRig rig) {
   rig.cycle();
   assert_int_equal(rig.seen.size(), 10);
   assert_int_equal(rig.seen.count(dozer_bus::ValveState::kId), 0);
@@ -29,8 +28,7 @@ TEST(messages_come_at_their_rates) {
   assert_int_equal(rig.seen.size(), 11);
 }
 
-TEST(frames_are_protected) {
-  DozerRig rig;
+TEST(frames_are_protected, DozerRig rig) {
   rig.cycles(100);
   check_protection<dozer_bus::BladeStroke>(rig);
   check_protection<dozer_bus::BodyPosition>(rig);
@@ -92,8 +90,7 @@ TEST(values_are_the_plants) {
   assert_int_equal(last<dozer_bus::MachineIdentity>(rig).dbc_version.value, dozer_bus::kDbcVersion);
 }
 
-TEST(plant_runs_10_ms_a_cycle) {
-  DozerRig rig;
+TEST(plant_runs_10_ms_a_cycle, DozerRig rig) {
   drive_for(rig, 30);  // the third is the first to be accepted
   DozerPlant alone(dozer_9t());
   alone.advance(2 * kCycleUs);
@@ -105,8 +102,7 @@ TEST(plant_runs_10_ms_a_cycle) {
   assert_near(rig.machine.plant().blade_stroke_m(), alone.blade_stroke_m(), 0.0);
 }
 
-TEST(it_waits_braked_and_neutral) {
-  DozerRig rig;
+TEST(it_waits_braked_and_neutral, DozerRig rig) {
   rig.cycles(20);
   assert_true(rig.braked());
   assert_false(rig.machine.spools_enabled());
@@ -114,8 +110,7 @@ TEST(it_waits_braked_and_neutral) {
   assert_near(rig.machine.plant().motor_ratios()[kLeft], 1.0, 0.0);
 }
 
-TEST(the_spool_follows_its_command) {
-  DozerRig rig;
+TEST(the_spool_follows_its_command, DozerRig rig) {
   rig.spool_for(2, true, 0.5);
   assert_false(rig.machine.spools_enabled());  // the sequence is not confirmed yet
   rig.spool_for(30, true, 0.5);
@@ -127,8 +122,7 @@ TEST(the_spool_follows_its_command) {
   assert_near(rig.blade_spool(), 0.0, 1e-4);
 }
 
-TEST(a_silence_of_the_spool_is_neutral_and_wants_off) {
-  DozerRig rig;
+TEST(a_silence_of_the_spool_is_neutral_and_wants_off, DozerRig rig) {
   rig.spool_for(30, true, 0.5);
   rig.cycles(9);
   assert_true(rig.machine.spools_enabled());
@@ -164,16 +158,13 @@ TEST(an_unusable_spool_command_is_neutral) {
   }
 }
 
-TEST(the_pilot_cut_centres_a_held_spool) {
-  DozerRig rig;
+TEST(the_pilot_cut_centres_a_held_spool, DozerRig rig) {
   rig.machine.faults().spool_held_ratio = 0.4;
   rig.spool_for(30, false, 0.0);
   assert_near(rig.blade_spool(), 0.4, 1e-3);
   dozer_bus::SpoolCommand cut;
   cut.pilot_cut.value = dozer_bus::SpoolCommand::PilotCut::kOn;
-  for (int i = 0; i < 30; ++i) {
-    rig.send_and_cycle(rig.frame_of(cut));
-  }
+  repeat(30, [&] { rig.send_and_cycle(rig.frame_of(cut)); });
   assert_near(rig.blade_spool(), 0.0, 1e-4);
   // Neither an unusable value nor silence ends it.
   for (int i = 0; i < 30; ++i) {
@@ -188,8 +179,7 @@ TEST(the_pilot_cut_centres_a_held_spool) {
   assert_near(rig.blade_spool(), 0.4, 1e-3);
 }
 
-TEST(pumps_motors_and_brake_follow_their_commands) {
-  DozerRig rig;
+TEST(pumps_motors_and_brake_follow_their_commands, DozerRig rig) {
   rig.pumps_for(50, true, 0.6, -0.3);
   assert_near(rig.left_pump(), 0.6, 0.01);
   assert_near(rig.right_pump(), -0.3, 0.01);
@@ -204,8 +194,7 @@ TEST(pumps_motors_and_brake_follow_their_commands) {
 }
 
 // 100 ms without: pumps to 0 at once, the brake as soon as the tracks stand.
-TEST(a_silence_of_the_pumps_stops_the_machine) {
-  DozerRig rig;
+TEST(a_silence_of_the_pumps_stops_the_machine, DozerRig rig) {
   rig.pumps_for(200, false, 1.0, 1.0);
   assert_true(rig.machine.plant().velocity_mps() > 0.6);
   rig.cycles(9);
@@ -231,8 +220,7 @@ TEST(a_silence_of_the_pumps_stops_the_machine) {
 }
 
 // A pump that does not obey: the brake closes all the same.
-TEST(the_brake_does_not_wait_for_ever) {
-  DozerRig rig;
+TEST(the_brake_does_not_wait_for_ever, DozerRig rig) {
   rig.machine.faults().path[kLeft].pump.held_ratio = 1.0;
   rig.machine.faults().path[kRight].pump.held_ratio = 1.0;
   rig.pumps_for(200, false, 1.0, 1.0);
@@ -243,8 +231,7 @@ TEST(the_brake_does_not_wait_for_ever) {
 }
 
 // Nor does it begin to wait anew with each command that cannot be used.
-TEST(unusable_commands_do_not_put_the_brake_off) {
-  DozerRig rig;
+TEST(unusable_commands_do_not_put_the_brake_off, DozerRig rig) {
   rig.machine.faults().path[kLeft].pump.held_ratio = 1.0;
   rig.machine.faults().path[kRight].pump.held_ratio = 1.0;
   rig.pumps_for(200, false, 1.0, 1.0);
@@ -315,8 +302,7 @@ TEST(wrong_frames_are_no_sign_of_life) {
   }
 }
 
-TEST(the_operator_asks_for_grading) {
-  DozerRig rig;
+TEST(the_operator_asks_for_grading, DozerRig rig) {
   rig.driver.set_schedule({{100'000, {true, OperatorMode::kAutomatic, Task::kGrade, 0.5}}});
   rig.cycles(9);
   auto message = last<dozer_bus::OperatorCommand>(rig);

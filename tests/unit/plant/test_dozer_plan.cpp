@@ -77,16 +77,12 @@ TEST(it_turns_as_its_tracks_push) {
 TEST(a_way_is_along_and_across) {
   PlanMotion motion(curved().profile);
   // Half a second at rest with a push turns it.
-  for (int i = 0; i < 1000; ++i) {
-    motion.step(60e3, 0.0, 87e3, 0.0, -5.0, 0.0005);
-  }
+  repeat(1000, [&] { motion.step(60e3, 0.0, 87e3, 0.0, -5.0, 0.0005); });
   const double heading_rad = motion.heading_rad();
   assert_true(heading_rad > 0.01);
   assert_near(motion.offset_m(), 0.0, 0.0);
   PlanMotion still(curved().profile);
-  for (int i = 0; i < 1000; ++i) {
-    still.step(0.0, 0.0, 87e3, 1.0, 10.0, 0.0005);
-  }
+  repeat(1000, [&] { still.step(0.0, 0.0, 87e3, 1.0, 10.0, 0.0005); });
   // It goes straight on, so that the track turns away from it.
   assert_near(still.heading_rad(), -0.5 / kRadius_m, 1e-3);
   assert_near(still.offset_m(), -0.5 * 0.5 * 0.5 / kRadius_m, 1e-3);

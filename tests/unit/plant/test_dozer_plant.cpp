@@ -219,9 +219,7 @@ TEST(the_same_calls_give_the_same_numbers) {
   grade_for(other, 8 * kSecondUs);
   assert_true(state_of(one) == state_of(other));
   // In whatever pieces time comes.
-  for (int i = 0; i < 100; ++i) {
-    one.advance(1300);
-  }
+  repeat(100, [&] { one.advance(1300); });
   other.advance(130000);
   assert_true(state_of(one) == state_of(other));
 }
@@ -243,8 +241,7 @@ TEST(a_shorter_step_changes_little) {
   assert_true(coarse_plant.position_m() > 9.0);
 }
 
-TEST(sensors_round_and_nothing_else_without_a_seed) {
-  DozerSensorErrors errors;
+TEST(sensors_round_and_nothing_else_without_a_seed, DozerSensorErrors errors) {
   errors.stroke_resolution_m = 1e-4;
   errors.height_bias_m = 0.002;
   errors.height_noise_m = 0.0015;
@@ -295,8 +292,7 @@ TEST(sensor_noise_has_its_deviation) {
   assert_near(sensors.stroke_m(0.12344), 0.1234, 1e-12);
 }
 
-TEST(the_height_bias_is_constant_and_within) {
-  DozerSensorErrors errors;
+TEST(the_height_bias_is_constant_and_within, DozerSensorErrors errors) {
   errors.height_bias_m = 0.002;
   double least = 1.0;
   double most = -1.0;

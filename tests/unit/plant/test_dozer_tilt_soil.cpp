@@ -31,8 +31,7 @@ DozerPlant cutting(const DozerPlantProfile& profile, double tilt_duty) {
   return plant;
 }
 
-TEST(strips_share_the_whole_edge) {
-  EdgePlaces places;
+TEST(strips_share_the_whole_edge, EdgePlaces places) {
   const std::array<double, kEdgeStrips> along_m = {1.2, 0.9, 0.0, -0.9, -1.2};
   for (std::size_t i = 0; i < kEdgeStrips; ++i) {
     places[i] = {true, along_m[i], {0.0, 0.0}};
@@ -51,8 +50,7 @@ TEST(strips_share_the_whole_edge) {
 }
 
 /// Worked out by hand, on a machine that stands level: levers in x, y, z of each point.
-TEST(a_strip_turns_what_it_holds) {
-  EdgeStand stand;
+TEST(a_strip_turns_what_it_holds, EdgeStand stand) {
   stand.edge_middle_m = {2.0, 0.0, 0.0};
   stand.pivot_m = {0.5, 0.0, 0.4};
   stand.mass_centre_m = {0.0, 0.0, 0.85};
@@ -104,9 +102,7 @@ TEST(the_lower_end_is_held_back_more) {
 TEST(the_tilt_cylinder_holds_against_it) {
   const auto gives_rad = [](double moment_nm) {
     TiltDrive drive(in_soil("dozer_9t_tilt", "loam"), 0.0005);
-    for (int i = 0; i < 1000; ++i) {
-      drive.step(1e-3, 0.0, false, moment_nm);
-    }
+    repeat(1000, [&] { drive.step(1e-3, 0.0, false, moment_nm); });
     return drive.angle_rad();
   };
   const double left_rad = gives_rad(4e3);

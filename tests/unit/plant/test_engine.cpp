@@ -102,8 +102,7 @@ struct SaggingRig : BusRig<ExcavatorNode, OperatorNode<dbc::excavator::Dbc>> {
 /// EEC1 has 0.125 rpm.
 constexpr double kResolution_radps = 0.125 * 2.0 * kPi / 60.0;
 
-TEST(the_bus_is_told_the_speed_that_it_has) {
-  SaggingRig rig;
+TEST(the_bus_is_told_the_speed_that_it_has, SaggingRig rig) {
   rig.cycles(5);
   const double told_radps = last<bus::EEC1>(rig).engine_speed_radps.value;
   assert_near(told_radps, rig.machine.plant().engine_radps(), kResolution_radps);

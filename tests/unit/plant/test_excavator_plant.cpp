@@ -318,9 +318,7 @@ TEST(shares_of_a_step_are_kept) {
   ExcavatorPlant pieces(machine_22t(), kStart);
   run(whole, {0.6, 0.0, 0.0}, 300 * kMillisecondUs);
   pieces.set_duty({0.6, 0.0, 0.0}, true);
-  for (int i = 0; i < 3000; ++i) {
-    pieces.advance(100);
-  }
+  repeat(3000, [&] { pieces.advance(100); });
   assert_near(pieces.strokes_m()[kBoom], whole.strokes_m()[kBoom], 0.0);
 }
 

@@ -60,9 +60,7 @@ struct ImuRig : BusRig<ExcavatorNode, NoDriver> {
     strokes = next_imu_strokes(kinematics, profile.imu, receiver.inputs(), still, 0.01, state);
   }
   void rest(double time_s) {
-    for (int i = 0; i < static_cast<int>(100.0 * time_s); ++i) {
-      follow(true);
-    }
+    repeat(static_cast<int>(100.0 * time_s), [&] { follow(true); });
   }
   /// Drives with these duties.
   void drive(const std::array<double, kDriveCount>& duty, double time_s) {

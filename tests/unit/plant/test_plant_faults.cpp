@@ -12,8 +12,7 @@ using dbc::RawState;
 
 constexpr double kSet = 0.643;  // the profile's swash
 
-TEST(valve_state_is_the_plants) {
-  Rig rig;
+TEST(valve_state_is_the_plants, Rig rig) {
   rig.command_for(32, true, 0.5);
   auto valve = last<bus::ValveState>(rig);
   const auto spool = rig.machine.plant().spool_travels_ratio();
@@ -28,8 +27,7 @@ TEST(valve_state_is_the_plants) {
   assert_true(valve.boom_spool_ratio.value > 0.3);  // enable is off, the spool on its way
 }
 
-TEST(each_spool_has_its_place_on_the_bus) {
-  Rig rig;
+TEST(each_spool_has_its_place_on_the_bus, Rig rig) {
   for (int i = 0; i < 60; ++i) {
     bus::SpoolCommand message;
     message.enable.value = bus::SpoolCommand::Enable::kOn;
@@ -56,8 +54,7 @@ void pump_for(Rig& rig, int cycles, dbc::Physical one, dbc::Physical two) {
 constexpr dbc::Physical kNotCommanded{0.0, RawState::kNotAvailable};
 dbc::Physical swash_of(double ratio) { return {ratio, RawState::kValid}; }
 
-TEST(pumps_follow_their_commands) {
-  Rig rig;
+TEST(pumps_follow_their_commands, Rig rig) {
   pump_for(rig, 4, swash_of(0.5), swash_of(0.3));
   assert_near(rig.machine.plant().swash_ratios()[0], kSet, 0.0);  // not confirmed yet
   pump_for(rig, 10, swash_of(0.5), swash_of(0.3));
@@ -76,8 +73,7 @@ TEST(pumps_follow_their_commands) {
   assert_int_equal(rig.machine.pump_counters().timeouts, 0);
 }
 
-TEST(pumps_go_back_without_a_command) {
-  Rig rig;
+TEST(pumps_go_back_without_a_command, Rig rig) {
   pump_for(rig, 201, swash_of(0.3), swash_of(0.3));  // the last one came in the last cycle
   rig.cycles(9);
   assert_near(rig.machine.plant().swash_ratios()[0], 0.3, 1e-6);
@@ -88,8 +84,7 @@ TEST(pumps_go_back_without_a_command) {
   assert_near(rig.machine.plant().swash_ratios()[0], kSet, 1e-6);
 }
 
-TEST(wrong_pump_commands_are_refused) {
-  Rig rig;
+TEST(wrong_pump_commands_are_refused, Rig rig) {
   for (int i = 0; i < 20; ++i) {
     CanFrame frame = rig.frame_of(bus::PumpCommand{swash_of(0.3), swash_of(0.3)});
     frame.data[3] = static_cast<std::uint8_t>(frame.data[3] ^ 1U);
@@ -102,8 +97,7 @@ TEST(wrong_pump_commands_are_refused) {
 }
 
 // A command of what the profile sets changes nothing, to the last bit.
-TEST(the_set_swash_as_command_is_no_change) {
-  Rig commanded;
+TEST(the_set_swash_as_command_is_no_change, Rig commanded) {
   Rig left;
   for (int i = 0; i < 100; ++i) {
     if (i % 2 == 0) {
@@ -134,9 +128,7 @@ TEST(a_held_spool_obeys_the_pilot_cut_only) {
   assert_near(rig.boom_spool(), 0.3, 1e-3);
   rig.command_for(30, false, 0.0);
   assert_near(rig.boom_spool(), 0.3, 1e-6);
-  for (int i = 0; i < 30; ++i) {
-    rig.send_and_cycle(cut_command(rig, Cut::kOn, RawState::kValid));
-  }
+  repeat(30, [&] { rig.send_and_cycle(cut_command(rig, Cut::kOn, RawState::kValid)); });
   assert_near(rig.boom_spool(), 0.0, 1e-4);
   // Neither an unusable value nor silence ends the cut.
   rig.send_and_cycle(cut_command(rig, Cut::kOff, RawState::kError));
@@ -145,19 +137,14 @@ TEST(a_held_spool_obeys_the_pilot_cut_only) {
   assert_near(rig.boom_spool(), 0.0, 1e-4);
   // After a silence the valve side wants Off once.
   rig.command_for(4, false, 0.0);
-  for (int i = 0; i < 33; ++i) {
-    rig.send_and_cycle(cut_command(rig, Cut::kOff, RawState::kValid));
-  }
+  repeat(33, [&] { rig.send_and_cycle(cut_command(rig, Cut::kOff, RawState::kValid)); });
   assert_near(rig.boom_spool(), 0.3, 1e-3);
   rig.machine.faults().axis[kBoom].spool_held_ratio.reset();
-  for (int i = 0; i < 60; ++i) {
-    rig.send_and_cycle(cut_command(rig, Cut::kOff, RawState::kValid));
-  }
+  repeat(60, [&] { rig.send_and_cycle(cut_command(rig, Cut::kOff, RawState::kValid)); });
   assert_near(rig.boom_spool(), 0.5, 1e-3);
 }
 
-TEST(a_spool_opens_uncommanded) {
-  Rig rig;
+TEST(a_spool_opens_uncommanded, Rig rig) {
   rig.machine.faults().axis[kBoom].spool_offset_ratio = 0.2;
   rig.cycles(30);
   assert_near(rig.boom_spool(), 0.2, 1e-3);
@@ -168,8 +155,7 @@ TEST(a_spool_opens_uncommanded) {
 
 double shown_boom(const Rig& rig) { return last<bus::BoomStroke>(rig).boom_stroke_m.value; }
 
-TEST(stroke_sensors_fail_in_their_ways) {
-  Rig rig;
+TEST(stroke_sensors_fail_in_their_ways, Rig rig) {
   rig.command_for(30, true, 0.5);
   StrokeFault& fault = rig.machine.faults().axis[kBoom].stroke;
   const double before_m = shown_boom(rig);
@@ -192,8 +178,7 @@ TEST(stroke_sensors_fail_in_their_ways) {
   assert_near(shown_boom(rig), rig.machine.plant().strokes_m()[kBoom], 1e-4);
 }
 
-TEST(pressure_sensors_fail_in_their_ways) {
-  Rig rig;
+TEST(pressure_sensors_fail_in_their_ways, Rig rig) {
   rig.cycle();
   const auto before = last<bus::BoomPressure>(rig);
   rig.machine.faults().axis[kBoom].cap.stuck = true;
@@ -215,8 +200,7 @@ TEST(pressure_sensors_fail_in_their_ways) {
   assert_near(shown.boom_cap_pressure_pa.value, rig.machine.plant().cap_pressures_pa()[0], 501.0);
 }
 
-TEST(swash_and_its_feedback_fail) {
-  Rig rig;
+TEST(swash_and_its_feedback_fail, Rig rig) {
   rig.machine.faults().pump[0].shown_swash_ratio = 0.9;
   rig.machine.faults().pump[1].actual_swash_ratio = 0.2;
   pump_for(rig, 200, swash_of(0.5), swash_of(0.5));
@@ -226,8 +210,7 @@ TEST(swash_and_its_feedback_fail) {
   assert_near(last<bus::PumpState>(rig).pump2_swash_ratio.value, 0.2, 1e-5);
 }
 
-TEST(identity_can_be_wrong) {
-  Rig rig;
+TEST(identity_can_be_wrong, Rig rig) {
   rig.machine.faults().wrong_identity = true;
   rig.cycle();
   assert_int_not_equal(last<bus::MachineIdentity>(rig).profile_hash.value, kHash);
@@ -236,8 +219,7 @@ TEST(identity_can_be_wrong) {
   assert_int_equal(last<bus::MachineIdentity>(rig).profile_hash.value, kHash);
 }
 
-TEST(commands_can_be_lost) {
-  Rig rig;
+TEST(commands_can_be_lost, Rig rig) {
   rig.command_for(30, true, 0.5);
   rig.machine.faults().loses_spool_commands = true;
   rig.command_for(10, true, 0.5);
@@ -251,8 +233,7 @@ TEST(commands_can_be_lost) {
   assert_true(rig.machine.spools_enabled());
 }
 
-TEST(counters_can_freeze) {
-  Rig rig;
+TEST(counters_can_freeze, Rig rig) {
   rig.cycles(10);
   rig.machine.faults().set_frozen_counter(bus::ArmStroke::kId, true);
   rig.cycles(10);
@@ -267,8 +248,7 @@ TEST(counters_can_freeze) {
   assert_int_equal(counter_of(rig.seen[bus::ArmStroke::kId][21]), 11);
 }
 
-TEST(data_ids_can_be_swapped) {
-  Rig rig;
+TEST(data_ids_can_be_swapped, Rig rig) {
   rig.machine.faults().frames.swapped_data_ids = {bus::BoomStroke::kId, bus::ArmStroke::kId};
   rig.cycle();
   const auto fits = [&rig](std::uint32_t id, std::uint16_t data_id) {
@@ -282,8 +262,7 @@ TEST(data_ids_can_be_swapped) {
   assert_true(fits(bus::BoomStroke::kId, bus::BoomStroke::kDataId));
 }
 
-TEST(the_stream_can_be_late) {
-  Rig rig;
+TEST(the_stream_can_be_late, Rig rig) {
   rig.cycles(10);
   rig.machine.faults().frames.delay_us = 200 * kMillisecondUs;
   rig.cycles(20);

@@ -12,8 +12,7 @@ namespace bus = dbc::excavator;
 using namespace graben::plant::test;
 using dbc::RawState;
 
-TEST(messages_come_at_their_rates) {
-  Rig rig;
+TEST(messages_come_at_their_rates, Rig rig) {
   rig.cycles(200);
   for (const std::uint32_t id :
        {bus::BoomStroke::kId, bus::ArmStroke::kId, bus::BucketStroke::kId, bus::BoomPressure::kId,
@@ -28,8 +27,7 @@ TEST(messages_come_at_their_rates) {
   assert_int_equal(rig.seen.size(), 11);
 }
 
-TEST(frames_are_protected) {
-  Rig rig;
+TEST(frames_are_protected, Rig rig) {
   rig.cycles(100);
   check_protection<bus::BoomStroke>(rig);
   check_protection<bus::ArmStroke>(rig);
@@ -43,8 +41,7 @@ TEST(frames_are_protected) {
 }
 
 /// Off by their zeros always, and by what a seed draws beside them.
-TEST(sensors_are_off_by_their_zeros) {
-  SensorErrors errors;
+TEST(sensors_are_off_by_their_zeros, SensorErrors errors) {
   errors.stroke_bias_m = 2e-3;
   errors.pressure_range_pa = 40e6;
   errors.pressure_bias_ratio = 0.01;
@@ -63,8 +60,7 @@ TEST(sensors_are_off_by_their_zeros) {
   assert_near(biased.stroke_m(kArm, 0.5), plain.stroke_m(kArm, 0.5) - 0.01, 1e-12);
 }
 
-TEST(values_are_the_plants) {
-  Rig rig;
+TEST(values_are_the_plants, Rig rig) {
   rig.cycles(3);
   const ExcavatorPlant& plant = rig.machine.plant();
   // Encoder 0.1 mm, bus 0.05 mm and 1 kPa.
@@ -86,8 +82,7 @@ TEST(values_are_the_plants) {
   assert_int_equal(last<bus::MachineIdentity>(rig).dbc_version.value, bus::kDbcVersion);
 }
 
-TEST(sensors_show_what_they_can) {
-  SensorErrors errors;
+TEST(sensors_show_what_they_can, SensorErrors errors) {
   errors.stroke_resolution_m = 1e-4;
   errors.pressure_range_pa = 25e6;
   errors.stroke_bias_m = 2e-3;
@@ -100,8 +95,7 @@ TEST(sensors_show_what_they_can) {
   assert_near(sensors.rod_pressure_pa(kArm, 30e6), 25e6, 0.0);
 }
 
-TEST(commands_move_the_spool) {
-  Rig rig;
+TEST(commands_move_the_spool, Rig rig) {
   rig.command_for(2, true, 0.5);
   assert_false(rig.machine.spools_enabled());  // the sequence is not confirmed yet
   rig.command_for(30, true, 0.5);
@@ -111,8 +105,7 @@ TEST(commands_move_the_spool) {
   assert_int_equal(rig.machine.counters().accepted, 30);
 }
 
-TEST(plant_runs_10_ms_a_cycle) {
-  Rig rig;
+TEST(plant_runs_10_ms_a_cycle, Rig rig) {
   rig.command_for(30, true, 0.5);  // the third is the first to be accepted
   ExcavatorPlant alone(machine_22t(), {0.7, 0.7, 0.6});
   alone.advance(2 * kCycleUs);
@@ -122,8 +115,7 @@ TEST(plant_runs_10_ms_a_cycle) {
   assert_near(rig.machine.plant().strokes_m()[kBoom], alone.strokes_m()[kBoom], 0.0);
 }
 
-TEST(enable_off_is_neutral_at_once) {
-  Rig rig;
+TEST(enable_off_is_neutral_at_once, Rig rig) {
   rig.command_for(30, true, 0.5);
   rig.command_for(1, false, 0.5);
   assert_false(rig.machine.spools_enabled());
@@ -132,8 +124,7 @@ TEST(enable_off_is_neutral_at_once) {
   assert_near(rig.boom_spool(), 0.0, 1e-4);
 }
 
-TEST(silence_is_neutral_after_100_ms) {
-  Rig rig;
+TEST(silence_is_neutral_after_100_ms, Rig rig) {
   rig.command_for(30, true, 0.5);  // the last one came 10 ms ago
   rig.cycles(9);
   assert_true(rig.machine.spools_enabled());
@@ -148,8 +139,7 @@ TEST(silence_is_neutral_after_100_ms) {
 }
 
 /// After a silence commands that are right and in order, as a queue lets them go: not before Off.
-TEST(a_silence_ends_with_enable_off) {
-  Rig rig;
+TEST(a_silence_ends_with_enable_off, Rig rig) {
   rig.command_for(30, true, 0.5);
   rig.cycles(10);
   rig.command_for(20, true, 0.5);
@@ -161,8 +151,7 @@ TEST(a_silence_ends_with_enable_off) {
 }
 
 /// An enable that says 'error' is no Off.
-TEST(an_unusable_enable_does_not_end_a_silence) {
-  Rig rig;
+TEST(an_unusable_enable_does_not_end_a_silence, Rig rig) {
   rig.command_for(30, true, 0.5);
   rig.cycles(10);
   rig.command_for(3, true, 0.5);
@@ -218,8 +207,7 @@ TEST(unusable_values_are_neutral) {
   }
 }
 
-TEST(command_reaches_every_spool) {
-  Rig rig;
+TEST(command_reaches_every_spool, Rig rig) {
   for (int i = 0; i < 60; ++i) {
     bus::SpoolCommand message;
     message.enable.value = bus::SpoolCommand::Enable::kOn;
@@ -234,8 +222,7 @@ TEST(command_reaches_every_spool) {
   assert_near(travel[kBucket], 0.18, 1e-6);
 }
 
-TEST(flood_does_not_starve_the_command) {
-  Rig rig;
+TEST(flood_does_not_starve_the_command, Rig rig) {
   for (int i = 0; i < 5; ++i) {
     for (int k = 0; k < 200; ++k) {
       CanFrame other;
@@ -247,8 +234,7 @@ TEST(flood_does_not_starve_the_command) {
   assert_true(rig.machine.spools_enabled());
 }
 
-TEST(silenced_messages_stop) {
-  Rig rig;
+TEST(silenced_messages_stop, Rig rig) {
   rig.machine.faults().set_silent(bus::ArmStroke::kId, true);
   rig.driver.set_silent(true);
   rig.cycles(10);
@@ -261,8 +247,7 @@ TEST(silenced_messages_stop) {
   check_protection<bus::ArmStroke>(rig);
 }
 
-TEST(strokes_can_fail) {
-  Rig rig;
+TEST(strokes_can_fail, Rig rig) {
   rig.machine.faults().set_stroke_state(kArm, RawState::kError);
   rig.machine.faults().set_stroke_state(kBucket, RawState::kNotAvailable);
   rig.cycle();
@@ -271,8 +256,7 @@ TEST(strokes_can_fail) {
   assert_true(last<bus::BucketStroke>(rig).bucket_stroke_m.state == RawState::kNotAvailable);
 }
 
-TEST(operator_follows_the_schedule) {
-  Rig rig;
+TEST(operator_follows_the_schedule, Rig rig) {
   rig.driver.set_schedule({{100'000, {true, OperatorMode::kAutomatic, Task::kDig, 0.5}},
                            {200'000, {false, OperatorMode::kManual, Task::kNone, 1.0}}});
   rig.cycles(9);
@@ -292,8 +276,7 @@ TEST(operator_follows_the_schedule) {
 }
 
 /// A station without levers sends none; windows come by turns, of the drives that have one.
-TEST(hands_are_sent_where_they_are) {
-  Rig rig;
+TEST(hands_are_sent_where_they_are, Rig rig) {
   rig.cycles(20);
   assert_int_equal(rig.seen.count(bus::OperatorAxes::kId), 0);
   assert_int_equal(rig.seen.count(bus::CommissionDuty::kId), 0);

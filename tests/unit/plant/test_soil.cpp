@@ -227,9 +227,7 @@ TEST(walls_stand_by_cohesion) {
         static_cast<void>(field.cut(x_m, y_m, -1.0));
       }
     }
-    for (int sweep = 0; sweep < 400; ++sweep) {
-      field.settle(0.0, 0.0, 2.5);
-    }
+    repeat(400, [&] { field.settle(0.0, 0.0, 2.5); });
     return field.height_m(0.0, 0.6);
   };
   assert_near(beside_m("loam"), 0.0, 0.01);

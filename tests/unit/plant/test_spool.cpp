@@ -24,9 +24,7 @@ void set_exponent(ExcavatorPlantProfile& profile, double exponent) {
 Spool settled_at(const ExcavatorPlantProfile& profile, double travel_ratio) {
   Spool spool(profile.spool[kBoom]);
   spool.set_command(travel_ratio);
-  for (int i = 0; i < 10000; ++i) {
-    spool.step(kStep);
-  }
+  repeat(10000, [&] { spool.step(kStep); });
   return spool;
 }
 
@@ -168,15 +166,11 @@ TEST(each_side_has_its_own_dead_time) {
 TEST(pilot_pressure_lags) {
   constexpr double kLag_s = 0.05;
   PilotValve pilot(0.01, kLag_s, kStep);
-  for (int i = 0; i < 100; ++i) {
-    assert_near(pilot.step(0.8, false), 0.0, 0.0);
-  }
+  repeat(100, [&] { assert_near(pilot.step(0.8, false), 0.0, 0.0); });
   for (int i = 1; i <= 2000; ++i) {
     assert_near(pilot.step(0.8, false), 0.8 * (1.0 - std::exp(-i * kStep / kLag_s)), 1e-9);
   }
-  for (int i = 0; i < 20000; ++i) {
-    static_cast<void>(pilot.step(0.8, false));
-  }
+  repeat(20000, [&] { static_cast<void>(pilot.step(0.8, false)); });
   assert_near(pilot.step(0.8, false), 0.8, 0.0);
   assert_near(pilot.step(0.8, true), 0.0, 0.0);
   assert_true(pilot.step(0.8, false) < 0.01);

@@ -75,9 +75,7 @@ TEST(cushion_throttles_every_way_out) {
   const double k = 0.62 * std::sqrt(2.0 / 870.0);
   ValveSection section(hopsan_circuit(200).section(kArm));
   section.set_command(1.0);
-  for (int i = 0; i < 20000; ++i) {
-    section.step(2e-4);
-  }
+  repeat(20000, [&] { section.step(2e-4); });
   SectionPorts ports{{20e6, 0.0}, {4e6, 0.0}, {11e6, 0.0}, {0.0, 0.0}, 1e13, 2e13};
   const SectionFlows back = section.solve(ports);
   const double edge = 1.0 / std::pow(k * 1.70e-4, 2);

@@ -12,8 +12,7 @@ using namespace graben::plant;
 using namespace graben::plant::test;
 using dbc::RawState;
 
-TEST(frames_come_at_their_rates) {
-  SwingRig rig;
+TEST(frames_come_at_their_rates, SwingRig rig) {
   rig.cycles(200);
   assert_int_equal(rig.seen[bus::SwingState::kId].size(), 200);
   assert_int_equal(rig.seen[bus::SwingValveState::kId].size(), 100);
@@ -26,8 +25,7 @@ TEST(frames_come_at_their_rates) {
                    rig.seen[bus::ValveState::kId].back().stamp_us);
 }
 
-TEST(without_the_drive_nothing_is_said_or_heard) {
-  Rig rig;
+TEST(without_the_drive_nothing_is_said_or_heard, Rig rig) {
   for (int i = 0; i < 50; ++i) {
     bus::SwingCommand message;
     message.enable.value = bus::SwingCommand::Enable::kOn;
@@ -41,8 +39,7 @@ TEST(without_the_drive_nothing_is_said_or_heard) {
   assert_false(rig.machine.swing_enabled());
 }
 
-TEST(values_are_the_plants) {
-  SwingRig rig;
+TEST(values_are_the_plants, SwingRig rig) {
   rig.command_for(151, true, true, -0.6);
   rig.cycle();
   const ExcavatorPlant& plant = rig.machine.plant();
@@ -59,8 +56,7 @@ TEST(values_are_the_plants) {
   assert_near(plant.swing_spool_ratio(), -0.6, 1e-3);
 }
 
-TEST(spool_opens_only_with_both_commands) {
-  SwingRig rig;
+TEST(spool_opens_only_with_both_commands, SwingRig rig) {
   rig.command_for(30, true, true, 0.5);
   assert_true(rig.machine.spools_enabled() && rig.machine.swing_enabled());
   assert_near(rig.spool(), 0.5, 1e-3);
@@ -78,8 +74,7 @@ TEST(spool_opens_only_with_both_commands) {
   assert_near(rig.spool(), -0.5, 1e-3);
 }
 
-TEST(swing_alone_opens_nothing) {
-  SwingRig rig;
+TEST(swing_alone_opens_nothing, SwingRig rig) {
   for (int i = 0; i < 30; ++i) {
     rig.send_swing(true, 0.5);
     rig.cycle();
@@ -88,8 +83,7 @@ TEST(swing_alone_opens_nothing) {
   assert_near(rig.spool(), 0.0, 0.0);
 }
 
-TEST(silence_of_the_swings_command_is_neutral) {
-  SwingRig rig;
+TEST(silence_of_the_swings_command_is_neutral, SwingRig rig) {
   rig.command_for(30, true, true, 0.5);
   for (int i = 0; i < 9; ++i) {
     rig.send_spool(true);
@@ -111,8 +105,7 @@ TEST(silence_of_the_swings_command_is_neutral) {
   assert_near(rig.spool(), 0.5, 1e-3);
 }
 
-TEST(silence_of_the_other_command_is_neutral_too) {
-  SwingRig rig;
+TEST(silence_of_the_other_command_is_neutral_too, SwingRig rig) {
   rig.command_for(30, true, true, 0.5);
   for (int i = 0; i < 40; ++i) {
     rig.send_swing(true, 0.5);
@@ -139,8 +132,7 @@ TEST(what_is_no_duty_is_neutral) {
   }
 }
 
-TEST(a_spoilt_command_does_not_count) {
-  SwingRig rig;
+TEST(a_spoilt_command_does_not_count, SwingRig rig) {
   rig.command_for(30, true, true, 0.0);
   CanFrame frame = rig.frame_of(rig.swing(true, 0.5));
   frame.data[0] ^= 1U;
@@ -150,8 +142,7 @@ TEST(a_spoilt_command_does_not_count) {
   assert_near(rig.spool(), 0.0, 0.0);
 }
 
-TEST(sensors_of_the_swing_fail_as_told) {
-  SwingRig rig;
+TEST(sensors_of_the_swing_fail_as_told, SwingRig rig) {
   rig.cycles(5);
   SwingFaults& faults = rig.machine.faults().swing;
   faults.angle.jump_rad = 0.1;
@@ -180,8 +171,7 @@ TEST(sensors_of_the_swing_fail_as_told) {
   assert_int_equal(rig.seen[bus::SwingState::kId].size(), before);
 }
 
-TEST(spool_of_the_swing_fails_as_told) {
-  SwingRig rig;
+TEST(spool_of_the_swing_fails_as_told, SwingRig rig) {
   rig.machine.faults().swing.spool_offset_ratio = 0.1;
   rig.cycles(50);
   assert_near(rig.spool(), 0.1, 1e-4);
@@ -196,8 +186,7 @@ TEST(spool_of_the_swing_fails_as_told) {
   assert_near(rig.spool(), 0.0, 1e-4);
 }
 
-TEST(angle_sensor_counts_no_turns) {
-  SensorErrors errors;
+TEST(angle_sensor_counts_no_turns, SensorErrors errors) {
   errors.swing_resolution_rad = 1e-3;
   const SensorModel exact(errors, std::nullopt);
   assert_near(exact.swing_rad(3.0004), 3.0, 1e-12);
@@ -214,8 +203,7 @@ TEST(angle_sensor_counts_no_turns) {
   assert_true(most > 0.009);
 }
 
-TEST(operator_says_the_task_number) {
-  SwingRig rig;
+TEST(operator_says_the_task_number, SwingRig rig) {
   rig.cycle();
   assert_int_equal(last<bus::OperatorCommand>(rig).task_number.value, 0);
   assert_int_equal(last<bus::OperatorCommand>(rig).task_number.state, RawState::kValid);
