@@ -110,7 +110,7 @@ double force_at(double slip, double load_n) {
 
 double settled_force(double track_mps, double ground_mps, double load_n, Traction& traction) {
   double force = 0.0;
-  repeat(200000, [&] { force = traction.step(track_mps, ground_mps, load_n, 5e-4); });
+  graben::repeat(200000, [&] { force = traction.step(track_mps, ground_mps, load_n, 5e-4); });
   return force;
 }
 
@@ -140,11 +140,11 @@ TEST(no_more_than_friction_gives) {
 // A track that stands does not creep: what is sheared stays sheared and holds.
 TEST(a_held_track_holds) {
   Traction traction(dozer_9t());
-  repeat(10, [&] { static_cast<void>(traction.step(0.0, -1.0, 40e3, 5e-4)); });
+  graben::repeat(10, [&] { static_cast<void>(traction.step(0.0, -1.0, 40e3, 5e-4)); });
   const double sheared = traction.shear_m();
   assert_true(sheared > 0.004);
   double force = 0.0;
-  repeat(100000, [&] { force = traction.step(0.0, 0.0, 40e3, 5e-4); });
+  graben::repeat(100000, [&] { force = traction.step(0.0, 0.0, 40e3, 5e-4); });
   assert_near(traction.shear_m(), sheared, 1e-12);
   const double u = sheared / 0.02;
   assert_near(force, 0.8 * 40e3 * (1.0 - (1.0 - std::exp(-u)) / u), 1e-6);

@@ -72,7 +72,7 @@ TEST(closed_ports_agree_after_a_while) {
   volume.set_flow(0, 1e-3);
   volume.scatter();
   volume.set_flow(0, 0.0);
-  repeat(100, [&] { volume.scatter(); });
+  graben::repeat(100, [&] { volume.scatter(); });
   assert_near(volume.port(0).wave_pa, volume.port(1).wave_pa, 1e-3);
 }
 
