@@ -12,7 +12,6 @@
 #include "tests/example_kind/loader_kind.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using Rig = runs::LoopbackRig<LoaderKind>;
 using Bus = LoaderKind::Dbc;
 

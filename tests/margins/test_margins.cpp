@@ -10,7 +10,6 @@
 #include "tests/margins/shipped_law.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using namespace graben::margins;
 
 const machines::SimulatedExcavator& machine() {

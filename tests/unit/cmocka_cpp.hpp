@@ -135,6 +135,9 @@ inline int run_source(const char* path) {
 
 }  // namespace graben::test
 
+// What is tested is named as its own code names it.
+using namespace graben;
+
 /// TEST(name) { ... }: a test, which is run by being there. TEST(name, Machine machine) { ... }:
 /// one that begins with a machine of its own.
 #define TEST(...) GRABEN_SECOND_OR(__VA_ARGS__, GRABEN_TEST_WITH, GRABEN_TEST, )(__VA_ARGS__)

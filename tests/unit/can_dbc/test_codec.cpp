@@ -19,7 +19,8 @@ constexpr Scale kScales[] = {
     {"BucketRodPressure", 1e3, 0.0, 0.0, 64e6},
     {"Pump1Swash", 2e-5, 0.0, 0.0, 1.2},
     {"Pump2Swash", 2e-5, 0.0, 0.0, 1.2},
-    {"EngineSpeed", 0.125 * 2.0 * kPi / 60.0, 0.0, 0.0, 8031.875 * 2.0 * kPi / 60.0},
+    {"EngineSpeed", 0.125 * 2.0 * codec_test::kPi / 60.0, 0.0, 0.0,
+     8031.875 * 2.0 * codec_test::kPi / 60.0},
     {"SpeedOverride", 0.005, 0.0, 0.0, 1.0},
     {"BoomDuty", 5e-5, -1.6, -1.0, 1.0},
     {"ArmDuty", 5e-5, -1.6, -1.0, 1.0},
@@ -102,7 +103,7 @@ TEST(known_payloads) {
   assert_encodes(command, {0xFF, 0x4F, 0x00, 0x7D, 0x00, 0x7D, 0x00, 0x7D});
 
   const bus::EEC1 engine = bus::EEC1::decode({0xFF, 0xFF, 0xFF, 0x80, 0x3E, 0xFF, 0xFF, 0xFF});
-  assert_near(engine.engine_speed_radps.value, 2000.0 * 2.0 * kPi / 60.0, 1e-9);
+  assert_near(engine.engine_speed_radps.value, 2000.0 * 2.0 * codec_test::kPi / 60.0, 1e-9);
 
   const bus::OperatorCommand driver =
       bus::OperatorCommand::decode({0x00, 0xD0, 0xF1, 0x01, 0x64, 0xFF, 0xFF, 0xFF});

@@ -10,7 +10,6 @@
 #include "tests/unit/firmware/dozer_fixture.hpp"
 #include "tests/unit/firmware/tilting_dozer.hpp"
 
-using namespace graben;
 using test::has;
 
 std::vector<GradePoint> shipped() {

@@ -3,7 +3,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-using namespace graben;
 using test::has;
 
 const char* const kMetres = "<Units><Metric linearUnit=\"meter\"/></Units>\n";

@@ -6,7 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-using namespace graben;
 using test::has;
 
 constexpr double kHalfPi = 1.57079632679489662;

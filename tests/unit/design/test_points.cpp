@@ -7,7 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-using namespace graben;
 using test::has;
 
 design::Surface read(const std::string& text) {

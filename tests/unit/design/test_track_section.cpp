@@ -6,7 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-using namespace graben;
 using test::has;
 
 /// A strip along a direction, 4 m wide, straight between its stations; how high it is says

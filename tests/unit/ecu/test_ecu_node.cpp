@@ -14,8 +14,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-using namespace graben;
-
 struct Excavator {
   using Ecu = ecu::ExcavatorKind::Ecu;
   using Stroke = dbc::excavator::BoomStroke;

@@ -13,8 +13,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 /// The manager's end, by an abstract name.
 class Manager {
  public:

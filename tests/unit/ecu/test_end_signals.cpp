@@ -16,7 +16,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using ecu::EndSignals;
 using ecu::LastFrames;
 

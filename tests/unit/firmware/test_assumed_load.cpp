@@ -7,8 +7,6 @@
 #include "app/machines/profile_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 const ExcavatorProfile& profile() {
   static const ExcavatorProfile machine =
       machines::load_excavator(machines::find_profile("excavator_22t")).profile;

@@ -3,8 +3,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-using namespace graben;
-
 const BladeGeometry& geometry() { return test::dozer().profile.blade; }
 
 /// Home as machines/dozer_9t.toml has it: edge at the ground line, cylinder at its home length, so

@@ -3,8 +3,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 constexpr double kRelief_pa = 32e6;
 constexpr double kLine_pa = 30e6;

@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.0625;
 constexpr BrakeState kReleased{false, 0.0};
 

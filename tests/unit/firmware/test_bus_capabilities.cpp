@@ -11,7 +11,6 @@
 #include "tests/unit/firmware/plain_dozer.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-using namespace graben;
 using Silence = void (*)(ExcavatorInputs&);
 
 void no_identity(ExcavatorInputs& inputs) { inputs.same_machine = {}; }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/unit/firmware/guarded_cylinder.hpp"
 
-using namespace graben;
 using namespace graben::test::guarded;
 
 TEST(a_duty_in_its_window_is_sent) {

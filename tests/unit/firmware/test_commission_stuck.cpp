@@ -3,7 +3,6 @@
 
 #include "tests/unit/firmware/guarded_cylinder.hpp"
 
-using namespace graben;
 using namespace graben::test::guarded;
 
 /// Any edge is open at seven tenths.

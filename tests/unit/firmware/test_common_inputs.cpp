@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/inputs.hpp"
 
-using namespace graben;
-
 constexpr TimeUs kNow = 5 * kSecondUs;
 constexpr TimeUs kStale = kNow - 50 * kMillisecondUs;
 constexpr EngineRange kEngine{200.0, 100.0};

@@ -3,7 +3,6 @@
 
 #include "tests/unit/firmware/running.hpp"
 
-using namespace graben;
 using test::assert_neutral;
 using test::Running;
 

@@ -9,7 +9,6 @@
 #include "tests/unit/firmware/memory_access.hpp"
 #include "tests/unit/firmware/running.hpp"
 
-using namespace graben;
 using test::assert_neutral;
 using test::fresh;
 using Memory = ControllerMemoryAccess;

@@ -9,8 +9,6 @@
 #include "firmware/dozer/tilt.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kReach_m = 2.27;
 constexpr double kPeriod_s = 0.01;
 

@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 
-using namespace graben;
-
 constexpr EcuMode kModes[] = {EcuMode::kSilent, EcuMode::kReady,    EcuMode::kArmed,
                               EcuMode::kActive, EcuMode::kStopping, EcuMode::kFault};
 

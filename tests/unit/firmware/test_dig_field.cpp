@@ -8,7 +8,6 @@
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/rounds.hpp"
 
-using namespace graben;
 using test::stroke_end_cap;
 
 const ExcavatorProfile& profile() { return test::excavator().profile; }

@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 /// 2 m of ground that stands 0.5 m over its design, for a bucket of 1 m.
 LayerPlan plan() {
   LayerPlan plan;

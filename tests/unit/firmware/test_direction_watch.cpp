@@ -5,7 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 constexpr double kEdge = 0.2;

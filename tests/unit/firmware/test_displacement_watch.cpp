@@ -6,8 +6,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kTolerance = 0.125;
 constexpr DisplacementLimits kLimits{kTolerance, 0.5};
 /// The time to settle, in cycles: a command still counts as under way in the last.

@@ -9,7 +9,6 @@
 #include "tests/unit/firmware/grading_dozer.hpp"
 #include "tests/unit/firmware/memory_access.hpp"
 
-using namespace graben;
 using test::assert_neutral;
 using test::Grading;
 

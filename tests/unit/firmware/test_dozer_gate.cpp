@@ -8,8 +8,6 @@
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 
-using namespace graben;
-
 constexpr double kLong_s = 1.0;  // Longer than any rate limit needs.
 constexpr double kStep_s = 0.0625;
 constexpr double kPumpStep = 0.25;    // 4/s

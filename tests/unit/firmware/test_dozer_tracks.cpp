@@ -3,7 +3,6 @@
 
 #include "tests/unit/firmware/dozer_watch_machine.hpp"
 
-using namespace graben;
 using namespace graben::test::of_dozer;
 
 /// At 1 m/s 0.475 m/s for 0.3 s, either way; a moment of agreement gives as much again. Both tracks

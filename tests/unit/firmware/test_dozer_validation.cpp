@@ -8,7 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 
-using namespace graben;
 using test::complete_dozer_inputs;
 
 constexpr TimeUs kNow = 5 * kSecondUs;

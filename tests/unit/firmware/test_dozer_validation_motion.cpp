@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 
-using namespace graben;
-
 constexpr bool kMoving = true;
 constexpr TimeUs kNow = 5 * kSecondUs;
 constexpr TimeUs kPeriod = 10 * kMillisecondUs;

@@ -3,7 +3,6 @@
 
 #include "tests/unit/firmware/dozer_watch_machine.hpp"
 
-using namespace graben;
 using namespace graben::test::of_dozer;
 
 TEST(a_machine_that_obeys_is_left_alone, Machine machine) {

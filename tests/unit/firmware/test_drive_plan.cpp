@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
-
 /// Round numbers: swing 1 rad/s left, 0.5 right.
 DriveLimits round_limits() {
   DriveLimits limits;

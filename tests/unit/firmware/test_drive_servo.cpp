@@ -10,7 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/servo_steps.hpp"
 
-using namespace graben;
 using test::control;
 using test::corrected_velocity;
 using test::machine;

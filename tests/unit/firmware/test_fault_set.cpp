@@ -3,8 +3,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 TEST(it_begins_empty) {
   const FaultSet none;
   assert_true(none.empty());

@@ -7,8 +7,6 @@
 #include <array>
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr bool kCutsPilot = true;
 
 struct Promise {

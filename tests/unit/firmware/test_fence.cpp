@@ -4,8 +4,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 
-using namespace graben;
-
 const test::ReplayMachine& machine() {
   static const test::ReplayMachine loaded(test::excavator_12t());
   return loaded;

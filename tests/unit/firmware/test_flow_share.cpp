@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 constexpr double kEngine_radps = 104.7;
 

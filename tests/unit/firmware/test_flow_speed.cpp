@@ -4,7 +4,6 @@
 #include "tests/unit/firmware/flow_fixture.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-using namespace graben;
 using namespace graben::test::of_flow;
 
 /// What leaves the draining side, over its area; either way by its own edge.

@@ -3,7 +3,6 @@
 
 #include "tests/unit/firmware/flow_fixture.hpp"
 
-using namespace graben;
 using namespace graben::test::of_flow;
 
 /// One drive and its watch, cycle by cycle; pressures live, without moving any oil.

@@ -7,8 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kLatency_s = 0.02;
 constexpr TimeUs kPeriod = 10 * kMillisecondUs;
 

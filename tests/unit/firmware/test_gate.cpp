@@ -9,7 +9,6 @@
 #include "tests/unit/firmware/plain_machine.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-using namespace graben;
 using test::gate;
 using test::Gated;
 using test::GateState;

@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-using namespace graben;
-
 const GradeDesign& design() { return test::dozer().profile.grade; }
 
 TEST(away_from_corners_it_goes_through_the_points) {

@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-using namespace graben;
-
 const DozerBody& body() { return test::dozer().profile.body; }
 
 /// Cuts along a design with the edge from `from_m` on, the machine on level ground behind it.

@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 
-using namespace graben;
-
 struct Small {
   unsigned char first = 3;
   bool second = true;

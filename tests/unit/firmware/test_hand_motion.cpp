@@ -5,8 +5,6 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 constexpr TipPose kStart = {5.0, -0.5, 1.3};
 constexpr double kDrift_m = 2e-3;  ///< Of steps of 10 ms that nothing corrects.

@@ -10,8 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
-
 const ExcavatorProfile& machine() { return test::excavator().profile; }
 
 OilState settled(double load_n) {

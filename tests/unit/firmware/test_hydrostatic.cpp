@@ -4,8 +4,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-using namespace graben;
-
 constexpr double kPerRpm = 6.28318530717958647693 / 60.0;
 
 const DozerProfile& profile() { return test::dozer().profile; }

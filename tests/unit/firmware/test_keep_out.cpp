@@ -7,8 +7,6 @@
 #include "tests/unit/firmware/drive_replay.hpp"
 #include "tests/unit/rounds.hpp"
 
-using namespace graben;
-
 constexpr int kPlaces = test::rounds(3000, 300);
 constexpr double kFar_m = 1e3;
 /// Points of a part in each direction.

@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
-
 constexpr int kSteps = 16;
 
 const ExcavatorKinematics& machine() {

@@ -5,7 +5,6 @@
 
 #include "tests/unit/firmware/layer_machine.hpp"
 
-using namespace graben;
 using namespace graben::layer_test;
 
 /// The same lateness slows a cut the less, the farther over the design it is.

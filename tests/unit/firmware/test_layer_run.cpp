@@ -5,7 +5,6 @@
 
 #include "tests/unit/firmware/layer_machine.hpp"
 
-using namespace graben;
 using namespace graben::layer_test;
 
 /// No jump of the aim, no place that the machine can't have, nothing below the line.

@@ -5,7 +5,6 @@
 
 #include "tests/unit/firmware/layer_machine.hpp"
 
-using namespace graben;
 using namespace graben::layer_test;
 
 CutSeen weighs(const TaskProgram& program, const TaskState& state) {

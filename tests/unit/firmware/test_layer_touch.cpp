@@ -5,7 +5,6 @@
 
 #include "tests/unit/firmware/layer_machine.hpp"
 
-using namespace graben;
 using layer_test::machine;
 using test::kCycle_s;
 

@@ -6,7 +6,6 @@
 #include "firmware/excavator/tasks/layer_run.hpp"
 #include "tests/unit/firmware/layer_machine.hpp"
 
-using namespace graben;
 using namespace graben::layer_test;
 
 /// Where the last cut goes along; from `beyond_m` before its line on.

@@ -8,8 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 constexpr double kEdge = 0.2;
 constexpr double kFull_mps = 0.5;

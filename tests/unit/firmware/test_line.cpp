@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
-
 constexpr double kTwoPi = 6.28318530717958647693;
 
 const SwingKinematics& machine() {

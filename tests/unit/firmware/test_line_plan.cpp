@@ -9,8 +9,6 @@
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/rounds.hpp"
 
-using namespace graben;
-
 constexpr int kTargets = test::rounds(10000, 300);
 /// What a stroke may pass its range by: rounding of a pose made from a stroke at its end.
 constexpr double kStrokeTolerance_m = 1.001e-6;

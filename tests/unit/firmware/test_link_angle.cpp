@@ -7,8 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 constexpr double kGravity = 9.80665;
 constexpr AngleNoise kNoise{1.75e-3, 3.5e-3, 0.3};

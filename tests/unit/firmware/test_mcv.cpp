@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
-
 McvMachine kim() { return mcv_machine(test::excavator().profile); }
 
 /// A load that all three cylinders can move in either direction.

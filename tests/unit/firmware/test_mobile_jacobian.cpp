@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-using namespace graben;
-
 constexpr double kStep_s = 1e-6;
 
 struct Draw {

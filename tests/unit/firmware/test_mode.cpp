@@ -4,8 +4,6 @@
 #include <initializer_list>
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 ModeRequest asks(bool enable, Task task = Task::kDig, bool automatic = true) {
   ModeRequest request;
   request.enable = enable;

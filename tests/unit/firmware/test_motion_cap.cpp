@@ -6,7 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 
-using namespace graben;
 using test::kCycle_s;
 
 const test::ReplayMachine& machine() {

@@ -7,8 +7,6 @@
 #include "tests/unit/firmware/plain_machine.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.0625;   // Eight of them are the time to settle, to the last bit.
 constexpr double kAllowed_m = 0.0625;  // safety.uncommanded and safety.stuck
 constexpr double kOpen = 0.75;         // Duty; a spool begins to open at 0.25.

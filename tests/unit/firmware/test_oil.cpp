@@ -10,8 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
-
 const ExcavatorProfile& machine() { return test::excavator().profile; }
 
 KinematicState state_at(double boom_m, double arm_m, double bucket_m) {

@@ -9,7 +9,6 @@
 #include "tests/unit/firmware/split.hpp"
 #include "tests/unit/rounds.hpp"
 
-using namespace graben;
 using test::kim;
 using test::split_input;
 

@@ -2,8 +2,6 @@
 #include "firmware/dozer/travel/passes.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 
 /// Level, 10 m long.

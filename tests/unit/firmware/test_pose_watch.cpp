@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 
 /// A body that drives as it says.

@@ -5,8 +5,6 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-using namespace graben;
-
 constexpr double kRail_pa = 40e6;
 constexpr double kPeriod_s = 0.01;
 

@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-using namespace graben;
-
 constexpr double kAllowed_m = 0.006;
 
 const DozerProfile& profile() { return test::dozer().profile; }

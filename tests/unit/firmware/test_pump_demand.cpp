@@ -11,8 +11,6 @@
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/rounds.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 constexpr double kReserve_n = 40e3;
 constexpr unsigned kDraws = test::rounds(2000, 100);

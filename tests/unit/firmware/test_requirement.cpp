@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/rounds.hpp"
 
-using namespace graben;
-
 constexpr int kCases = test::rounds(400, 100);
 
 /// Calls `use(circuit)` for random valves.

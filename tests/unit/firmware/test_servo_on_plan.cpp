@@ -7,7 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/servo_steps.hpp"
 
-using namespace graben;
 using test::corrected_velocity;
 using test::machine;
 using test::next_servo_on_plan;

@@ -8,8 +8,6 @@
 #include "firmware/drives/drive_servo.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 
 /// One side of a drive that answers as told.

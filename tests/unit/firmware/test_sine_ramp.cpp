@@ -3,8 +3,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kPi = 3.14159265358979323846;
 
 /// (7) as printed, but for the range of its last line.

@@ -5,8 +5,6 @@
 
 #include "tests/unit/firmware/two_sides.hpp"
 
-using namespace graben;
-
 /// In the dead band, along the table, and a little beyond its end.
 TEST(opening_and_travel_turn_into_each_other) {
   const SpoolAnswers answer = test::two_sides();

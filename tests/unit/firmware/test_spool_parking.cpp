@@ -5,8 +5,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/two_sides.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 
 DriveRow drive_row() {

@@ -8,7 +8,6 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-using namespace graben;
 using test::spools_centred;
 
 constexpr double kTolerance = 0.125;

@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.015625;  // Binary: 128 of them are 2 s.
 constexpr double kMost_s = 10.0;
 

@@ -6,8 +6,6 @@
 #include "tests/unit/firmware/split.hpp"
 #include "tests/unit/rounds.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.01;
 constexpr LambdaRise kRise{4.0, 8000.0, 0.0};
 /// About what 2 % of the pressures that hold the boom are.

@@ -7,7 +7,6 @@
 #include "firmware/excavator/tasks/step_round.hpp"
 #include "tests/unit/firmware/step_task.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 /// Each round digs the offset deeper; what the digs do not meet stays; then it is done, and stands

@@ -5,7 +5,6 @@
 #include "firmware/excavator/tasks/task_follow.hpp"
 #include "tests/unit/firmware/step_task.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 ProgramRequest with_wait() {

@@ -6,7 +6,6 @@
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-using namespace graben;
 using test::complete_inputs;
 
 constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;

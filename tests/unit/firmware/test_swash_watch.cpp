@@ -7,8 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-using namespace graben;
-
 constexpr std::array<double, kPumpCount> kWanted = {0.5, 0.75};
 constexpr double kTolerance = 0.125;
 

@@ -10,7 +10,6 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/running.hpp"
 
-using namespace graben;
 using test::assert_neutral;
 using test::corrected_velocity;
 using test::servo_at_rest;

@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.015625;  // Binary, so that times add up to the bit.
 constexpr int kCycles = 13;             // The first that is 0.2 s and more.
 constexpr TaskChoice kNothing;

@@ -7,7 +7,6 @@
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/task_machine.hpp"
 
-using namespace graben;
 using test::TaskMachine;
 using Memory = ControllerMemoryAccess;
 

@@ -8,7 +8,6 @@
 #include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/task_machine.hpp"
 
-using namespace graben;
 using test::kCycle_s;
 using test::servo_at_rest;
 using test::set;

@@ -8,7 +8,6 @@
 #include "tests/unit/firmware/drive_replay.hpp"
 #include "tests/unit/rounds.hpp"
 
-using namespace graben;
 using test::kCycle_s;
 
 constexpr int kPrograms = test::rounds(3000, 200);

@@ -6,7 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/tilting_dozer.hpp"
 
-using namespace graben;
 using test::CrossDesign;
 
 constexpr double kStep_rad = 1e-6;

@@ -5,7 +5,6 @@
 #include "tests/unit/firmware/grading_dozer.hpp"
 #include "tests/unit/firmware/tilting_dozer.hpp"
 
-using namespace graben;
 using test::CrossDesign;
 using test::Grading;
 using test::on;

@@ -8,7 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/load_world.hpp"
 
-using namespace graben;
 using test::LoadWorld;
 
 constexpr TipPose kHigh = {7.0, 0.7, 1.9};

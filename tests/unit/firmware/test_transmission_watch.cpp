@@ -9,8 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 
-using namespace graben;
-
 constexpr double kPeriod_s = 0.0625;
 
 /// Both tracks at 1 m/s, as told and as (9) has it.

@@ -4,8 +4,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-using namespace graben;
-
 constexpr double kEngine_radps = 157.08;
 constexpr double kPeriod_s = 0.01;
 

@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr double kTube_m = 0.25;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 

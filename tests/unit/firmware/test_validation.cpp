@@ -8,7 +8,6 @@
 #include "tests/unit/firmware/inputs.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
-using namespace graben;
 using test::complete_inputs;
 using test::validate;
 

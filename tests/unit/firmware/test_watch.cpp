@@ -5,7 +5,6 @@
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/watched_machine.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 TEST(a_machine_that_obeys_is_left_alone, Machine machine) {

@@ -5,7 +5,6 @@
 
 #include "tests/unit/firmware/watched_machine.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 /// What the valve's model says of a machine that nobody knows counts for nothing: neither while

@@ -10,7 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/hal/table_bus.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 struct Bus {

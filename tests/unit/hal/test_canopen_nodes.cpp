@@ -4,7 +4,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/hal/table_bus.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 constexpr std::uint8_t kNode = 0x0B;

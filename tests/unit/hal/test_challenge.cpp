@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr TimeUs kCycleUs = 10'000;
 
 // Stations that answer after so long by their own frames' times; negative: not at all.

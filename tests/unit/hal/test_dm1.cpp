@@ -9,8 +9,6 @@
 #include "firmware/safety/fault_table.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr TimeUs kCallUs = 10'000;
 
 FaultSet set_of(std::initializer_list<Fault> faults) {

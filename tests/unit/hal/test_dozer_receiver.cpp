@@ -3,7 +3,6 @@
 
 #include "tests/unit/hal/bus_frames.hpp"
 
-using namespace graben;
 using namespace graben::test;
 namespace bus = dbc::dozer;
 using dbc::Physical;

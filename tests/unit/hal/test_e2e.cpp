@@ -5,7 +5,6 @@
 
 #include "tests/unit/hal/e2e_link.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 TEST(crc_check_values) {

@@ -6,7 +6,6 @@
 #include "hal/link/e2e_window.hpp"
 #include "tests/unit/hal/e2e_link.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 // A block of old frames, the first of them `offset` ahead of the last live one.

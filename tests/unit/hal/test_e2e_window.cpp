@@ -4,8 +4,6 @@
 #include "hal/link/e2e_window.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr TimeUs kCycleUs = 10'000;
 
 struct Watch {

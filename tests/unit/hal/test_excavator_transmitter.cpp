@@ -4,7 +4,6 @@
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "tests/unit/hal/bus_sender.hpp"
 
-using namespace graben;
 using namespace graben::test;
 namespace bus = dbc::excavator;
 using dbc::RawState;

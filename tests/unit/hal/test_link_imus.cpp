@@ -5,7 +5,6 @@
 #include "hal/buses/excavator_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 namespace bus = dbc::j1939;
 
 constexpr double kDegree_rad = kPi / 180.0;

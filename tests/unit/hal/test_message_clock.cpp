@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 TEST(what_passes_and_is_not_sent_is_lag, MessageClock clock) {
   advance(clock, 10'000, 10'000);
   assert_int_equal(clock.lag_us, 0);  // never below

@@ -4,7 +4,6 @@
 #include "tests/unit/hal/bus_frames.hpp"
 #include "tests/unit/hal/seen_inputs.hpp"
 
-using namespace graben;
 using namespace graben::test;
 namespace bus = dbc::excavator;
 

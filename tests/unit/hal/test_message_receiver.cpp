@@ -4,7 +4,6 @@
 #include "tests/unit/hal/bus_frames.hpp"
 #include "tests/unit/hal/seen_inputs.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 // Gives the frame to the receiver; exactly the expected counter goes up by one, in the message's

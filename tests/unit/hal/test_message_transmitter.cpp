@@ -6,7 +6,6 @@
 #include "firmware/safety/fault_table.hpp"
 #include "tests/unit/hal/bus_sender.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 struct Excavator {

@@ -5,7 +5,6 @@
 
 #include "tests/unit/hal/bus_frames.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 constexpr TimeUs kCycleUs = 10'000;

@@ -10,7 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
 using namespace graben::identify;
 
 constexpr double kNoise_pa = 0.7e6;

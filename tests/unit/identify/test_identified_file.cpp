@@ -15,7 +15,6 @@
 #include "app/identify/machine/identified_profile.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using namespace graben::identify;
 
 constexpr const char* kFrom = "drive.log sha256 12ab34cd56ef, 2026-11-24";

@@ -14,7 +14,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
 using namespace graben::identify;
 
 void nothing(double, const std::string&) {}

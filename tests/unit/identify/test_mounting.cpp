@@ -15,7 +15,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
 using namespace graben::identify;
 
 constexpr double kHeight_m = -1.4;

@@ -16,7 +16,6 @@
 #include "firmware/mcv/evaluation.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using namespace graben::identify;
 
 constexpr double kEngine_radps = 188.5;

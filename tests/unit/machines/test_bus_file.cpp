@@ -12,7 +12,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-using namespace graben;
 using test::has;
 using test::refusal_of;
 using test::WrittenFile;

@@ -5,7 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using machines::KnownBus;
 using Errors = std::vector<std::string>;
 

@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 const machines::SimulatedDozer& machine() {
   static const machines::SimulatedDozer loaded =
       machines::load_simulated_dozer(machines::find_profile("dozer_9t"));

@@ -8,7 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using machines::arranged;
 using machines::DozerScenario;
 using machines::SimulatedDozer;

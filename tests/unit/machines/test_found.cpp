@@ -10,7 +10,6 @@
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using machines::arranged;
 using machines::Errors;
 using machines::Found;

@@ -11,7 +11,6 @@
 #include "app/machines/simulated/machine_truth.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using machines::hidden_machine;
 using machines::MachineTruth;
 using machines::SideTruth;

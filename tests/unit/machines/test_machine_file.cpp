@@ -5,8 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 const machines::SimulatedExcavator& machine() {
   static const machines::SimulatedExcavator loaded =
       machines::load_simulated_excavator(machines::find_profile("excavator_22t"));

@@ -12,7 +12,6 @@
 #include "firmware/mcv/mcv_machine.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using machines::arranged;
 using machines::Errors;
 using machines::Scenario;

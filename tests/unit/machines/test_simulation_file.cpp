@@ -14,7 +14,6 @@
 #include "app/machines/simulated/hidden.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using machines::SimulatedChoice;
 using machines::SimulatedExcavator;
 namespace fs = std::filesystem;

@@ -7,8 +7,6 @@
 #include "hal/buses/excavator_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr TimeUs kNow = 5 * kSecondUs;
 constexpr TimeUs kPeriod = 10 * kMillisecondUs;
 constexpr double kDegree_rad = kPi / 180.0;

@@ -6,8 +6,6 @@
 #include "app/machines/excavator_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 const ExcavatorProfile& profile() {
   static const machines::ExcavatorMachine machine =
       machines::load_excavator(machines::find_profile("excavator_12t"));

@@ -6,7 +6,6 @@
 #include "app/machines/task_text.hpp"
 #include "tests/unit/machines/written_task.hpp"
 
-using namespace graben;
 using namespace graben::test;
 
 TEST(the_paper_s_line) {

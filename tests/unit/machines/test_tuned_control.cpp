@@ -9,7 +9,6 @@
 #include "app/machines/excavator_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using machines::tuned_control;
 using machines::TunedControl;
 

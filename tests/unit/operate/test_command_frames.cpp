@@ -8,7 +8,6 @@
 #include "hal/link/message_rules.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using dbc::RawState;
 using operate::CommandFrames;
 using operate::CommandPair;

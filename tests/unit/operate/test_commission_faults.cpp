@@ -12,7 +12,6 @@
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/operate/commission_bench.hpp"
 
-using namespace graben;
 using commission::SequenceOptions;
 using commission::StepKind;
 using operate::CommissionEnd;

@@ -12,7 +12,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
-using namespace graben;
 using namespace graben::commission;
 namespace fs = std::filesystem;
 

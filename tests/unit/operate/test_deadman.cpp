@@ -7,7 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using operate::Deadman;
 using operate::Trouble;
 using operate::trouble_words;

@@ -8,7 +8,6 @@
 #include "hal/link/dm1.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using dbc::RawState;
 using operate::EcuListener;
 using Dbc = EcuListener::Dbc;

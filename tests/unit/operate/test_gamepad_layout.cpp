@@ -9,7 +9,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using operate::Hands;
 using operate::hands_of;
 using operate::note_press;

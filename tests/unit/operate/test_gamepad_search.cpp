@@ -9,7 +9,6 @@
 #include "app/operate/gamepad.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using operate::find_gamepads;
 using operate::Gamepad;
 using operate::GamepadSearch;

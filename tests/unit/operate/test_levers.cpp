@@ -7,7 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using operate::Axes;
 using operate::axes_of;
 using operate::kDeadZone;

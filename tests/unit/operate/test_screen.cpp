@@ -10,7 +10,6 @@
 #include "app/runs/code_text.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using dbc::RawState;
 using operate::EcuListener;
 using operate::Trouble;

@@ -5,7 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using operate::Hands;
 using operate::Request;
 using operate::Station;

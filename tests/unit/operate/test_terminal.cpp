@@ -15,7 +15,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using operate::RawTerminal;
 
 /// A process with a terminal of its own, whose other end stays here.

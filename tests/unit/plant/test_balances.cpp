@@ -9,7 +9,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 
 using AxisArray = ExcavatorPlant::AxisArray;

@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/dozer_fixture.hpp"
 
-using namespace graben;
-
 const DozerBody& body() { return test::dozer().profile.body; }
 
 Driving standing_at(double x_m, double speed_mps) {

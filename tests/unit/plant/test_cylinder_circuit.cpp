@@ -7,7 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/cylinder_circuit.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 
 constexpr double kCapArea = kCircuitCapArea;

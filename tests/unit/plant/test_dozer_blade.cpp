@@ -7,7 +7,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 
 constexpr double kCapArea = 2 * 0.785398163397448 * 0.110 * 0.110;

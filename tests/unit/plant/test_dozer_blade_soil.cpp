@@ -6,7 +6,6 @@
 #include "app/plant/dozer_blade_soil.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using plant::BladeSoil;
 using plant::Terrain;
 

@@ -4,7 +4,6 @@
 #include "app/plant/dozer_faults.hpp"
 #include "tests/unit/plant/fixture/dozer_rig.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
 using dbc::RawState;

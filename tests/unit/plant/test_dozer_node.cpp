@@ -5,7 +5,6 @@
 
 #include "tests/unit/plant/fixture/dozer_rig.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
 using dbc::RawState;

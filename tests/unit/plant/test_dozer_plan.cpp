@@ -8,7 +8,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 
 constexpr double kRadius_m = 20.0;

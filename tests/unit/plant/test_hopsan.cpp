@@ -12,7 +12,6 @@
 #include "tests/unit/plant/fixture/curves.hpp"
 #include "tests/unit/plant/fixture/cylinder_circuit.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 
 using Schedule = std::function<double(double)>;  // of time, s

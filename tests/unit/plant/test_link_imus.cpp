@@ -12,7 +12,6 @@
 #include "tests/unit/plant/fixture/bus_rig.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
 

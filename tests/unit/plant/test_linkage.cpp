@@ -6,7 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 
 constexpr double kPi = 3.141592653589793;

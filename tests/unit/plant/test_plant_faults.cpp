@@ -4,7 +4,6 @@
 #include "app/plant/excavator_faults.hpp"
 #include "tests/unit/plant/fixture/node_rig.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
 namespace bus = dbc::excavator;

@@ -6,7 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/node_rig.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 namespace bus = dbc::excavator;
 using namespace graben::plant::test;

@@ -8,7 +8,6 @@
 #include "app/plant/excavator_plant.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 
 constexpr ExcavatorPlant::AxisArray kStart{0.6, 0.7, 0.6};

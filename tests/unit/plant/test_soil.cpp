@@ -8,7 +8,6 @@
 #include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 using machines::soil_kind;
 

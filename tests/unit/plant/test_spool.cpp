@@ -6,7 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/plant/fixture/machines.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 
 constexpr double kStep = 1e-4;

@@ -7,7 +7,6 @@
 #include "tests/unit/plant/fixture/node_rig.hpp"
 #include "tests/unit/plant/fixture/swing_rig.hpp"
 
-using namespace graben;
 using namespace graben::plant;
 using namespace graben::plant::test;
 using dbc::RawState;

@@ -9,8 +9,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 /// Where the compiler cannot see that memory is not needed, and leave it out.
 void* volatile g_memory = nullptr;
 

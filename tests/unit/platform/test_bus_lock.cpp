@@ -11,8 +11,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 /// Tests run beside each other, in one network namespace.
 std::string own_name(const char* name) { return name + std::to_string(getpid()); }
 

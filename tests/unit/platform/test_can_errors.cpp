@@ -5,7 +5,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using State = CanPortState;
 
 can_frame error_frame(canid_t classes, unsigned controller_status = 0) {

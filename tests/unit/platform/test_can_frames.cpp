@@ -6,8 +6,6 @@
 #include "platform/linux/can_frames.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 can_frame kernel_frame(canid_t id, std::uint8_t length) {
   can_frame frame{};
   frame.can_id = id;

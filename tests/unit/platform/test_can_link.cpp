@@ -16,7 +16,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using Buffer = std::vector<unsigned char>;
 
 template <class T>

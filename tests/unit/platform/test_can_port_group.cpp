@@ -8,8 +8,6 @@
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 CanFrame frame(std::uint32_t id) {
   CanFrame made;
   made.id = id;

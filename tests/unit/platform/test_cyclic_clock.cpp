@@ -14,8 +14,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 constexpr std::int64_t kPeriodNs = 10'000'000;
 
 void expect_deadline(std::int64_t now_ns, std::int64_t at_ns, std::uint64_t skipped) {

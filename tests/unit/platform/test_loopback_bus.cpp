@@ -8,8 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 CanFrame frame(std::uint32_t id) {
   CanFrame result;
   result.id = id;

@@ -9,7 +9,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -24,8 +26,6 @@ constexpr bool kSanitized = __has_feature(address_sanitizer);
 #else
 constexpr bool kSanitized = false;
 #endif
-
-using namespace graben;
 
 enum Outcome { kGood = 0, kWrong = 1, kCannotTry = 2 };
 
@@ -172,11 +172,27 @@ TEST(page_faults_are_seen) {
   }
   const PageFaults after = page_faults();
   assert_true(faults_since(before, after) >= 1);
-  for (std::size_t i = 0; i < kPages; ++i) {
-    memory[i * page] = 2;
+  // Ten times: the kernel may take a page of the program's for itself at any time.
+  std::int64_t least = INT64_MAX;
+  for (char round = 2; round < 12; ++round) {
+    const PageFaults touched = page_faults();
+    for (std::size_t i = 0; i < kPages; ++i) {
+      memory[i * page] = round;
+    }
+    least = std::min(least, faults_since(touched, page_faults()));
   }
-  assert_int_equal(faults_since(after, page_faults()), 0);
+  assert_int_equal(least, 0);
   assert_int_equal(faults_since({3, 1}, {10, 2}), 8);
+}
+
+/// Of what must not fault: the kernel may take a page of a program's for itself at any time.
+template <class Body>
+int in_one_child_of_five(const Body& body) {
+  int outcome = kWrong;
+  for (int child = 0; child < 5 && outcome == kWrong; ++child) {
+    outcome = in_child(body);
+  }
+  return outcome;
 }
 
 /// A cycle's stack, deep down. Returns the faults that it took.
@@ -194,7 +210,7 @@ TEST(a_touched_stack_does_not_fault) {
   // A child begins with fresh copies of its parent's pages: without the call there are faults.
   static_cast<void>(page_faults());
   assert_int_equal(in_child([] { return faults_of_deep_stack() > 0 ? kGood : kWrong; }), kGood);
-  assert_int_equal(in_child([] {
+  assert_int_equal(in_one_child_of_five([] {
                      static_cast<void>(page_faults());
                      prefault_stack();
                      return faults_of_deep_stack() == 0 ? kGood : kWrong;
@@ -206,7 +222,7 @@ TEST(the_heap_is_tuned) {
   if (kSanitized) {
     skip();  // their heap takes no tuning, and says so
   }
-  assert_int_equal(in_child([] {
+  assert_int_equal(in_one_child_of_five([] {
                      if (!tune_heap().empty()) {
                        return kWrong;
                      }

@@ -16,8 +16,6 @@
 #include "platform/linux/process.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 /// The manager's end, bound to a path or, after '@', to an abstract name.
 class Manager {
  public:

@@ -47,7 +47,6 @@ extern "C" int clock_gettime(clockid_t clock, timespec* now) noexcept {
   return result;
 }
 
-using namespace graben;
 using namespace graben::test;
 using State = CanPortState;
 

@@ -7,7 +7,6 @@
 #include "platform/linux/cyclic_clock.hpp"
 #include "tests/unit/platform/socketcan_rig.hpp"
 
-using namespace graben;
 using namespace graben::test;
 using State = CanPortState;
 

@@ -3,7 +3,6 @@
 
 #include "tests/unit/runs/hands_rig.hpp"
 
-using namespace graben;
 using test::HandsRig;
 
 constexpr TipPose kStart = {4.5, -0.5, 1.3};

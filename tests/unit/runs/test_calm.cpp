@@ -10,7 +10,6 @@
 #include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using namespace graben::runs;
 
 constexpr double kPerSecond = 1.0 / kSampled_s;

@@ -5,7 +5,6 @@
 
 #include "tests/unit/runs/hands_rig.hpp"
 
-using namespace graben;
 using test::HandsRig;
 
 const Eigen::Vector3d kStart_m(0.7, 0.7, 0.5);

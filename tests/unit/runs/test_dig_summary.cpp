@@ -10,7 +10,6 @@
 #include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using namespace graben::runs;
 
 /// 10 s on the path after 1 s of approach that shakes, wastes and must not count.

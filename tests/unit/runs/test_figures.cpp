@@ -14,7 +14,6 @@
 #include "app/runs/grade_run.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using namespace graben::runs;
 
 template <class Summary>

@@ -8,7 +8,6 @@
 #include "app/runs/scenarios.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using namespace graben::runs;
 
 TEST(texts_are_read) {

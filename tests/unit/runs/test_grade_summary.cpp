@@ -7,7 +7,6 @@
 #include "app/runs/grade_run.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using runs::GradeResult;
 using runs::GradeSample;
 using runs::GradeSummary;

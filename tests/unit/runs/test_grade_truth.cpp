@@ -8,7 +8,6 @@
 #include "app/machines/simulated/simulated_dozer.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using runs::BodyPose;
 using runs::BodyRates;
 using runs::GradeTruth;

@@ -7,8 +7,6 @@
 #include "app/runs/ground_campaign.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 auto of(const runs::GroundCell& cell) {
   return std::make_tuple(cell.soil, cell.design, cell.engine_rpm);
 }

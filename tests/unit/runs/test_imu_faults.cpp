@@ -10,7 +10,6 @@
 #include "app/runs/scenarios.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using Rates = dbc::j1939::ARI;
 using Forces = dbc::j1939::ACS;
 

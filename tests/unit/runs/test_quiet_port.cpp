@@ -6,8 +6,6 @@
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 TEST(loses_what_is_sent_while_quiet_alone) {
   LoopbackBus bus;
   LoopbackPort& other = bus.attach();

@@ -6,8 +6,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/design/written_file.hpp"
 
-using namespace graben;
-
 /// A controller's word of its path or grade, then its status.
 runs::RunLog read(const std::string& id) {
   const test::WrittenFile file("run.log", "(1.000000) can0 " + id +

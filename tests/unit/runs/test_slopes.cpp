@@ -8,7 +8,6 @@
 #include "can_dbc/generated/j1939_dbc.hpp"
 #include "tests/unit/runs/machine_on_bus.hpp"
 
-using namespace graben;
 using test::kCycle_ms;
 
 /// The arm's.

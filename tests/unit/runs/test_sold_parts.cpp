@@ -9,7 +9,6 @@
 #include "app/runs/code_text.hpp"
 #include "tests/unit/runs/machine_on_bus.hpp"
 
-using namespace graben;
 using test::kCycle_ms;
 
 /// Of the bus profiles, and a cycle to find it.

@@ -8,7 +8,6 @@
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using dbc::RawState;
 using dbc::excavator::TaskStatus;
 using runs::TaskListener;

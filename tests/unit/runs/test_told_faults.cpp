@@ -12,7 +12,6 @@
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using namespace graben::runs;
 
 std::string refusal(const std::string& text) {

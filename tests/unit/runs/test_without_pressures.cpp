@@ -6,8 +6,6 @@
 #include "app/runs/scenarios.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
-
 runs::DigSummary dug_without_pressures(double bulk_modulus_gpa) {
   runs::DigScenario scenario;
   scenario.errors = "none";

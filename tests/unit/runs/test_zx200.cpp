@@ -7,7 +7,6 @@
 #include "can_dbc/generated/zx200_dbc.hpp"
 #include "tests/unit/runs/machine_on_bus.hpp"
 
-using namespace graben;
 namespace zx200 = dbc::zx200;
 
 using test::kCycle_ms;

@@ -13,7 +13,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using nlohmann::json;
 using scope::CanListener;
 using scope::CanSource;

@@ -7,7 +7,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using nlohmann::json;
 using scope::Client;
 using scope::Content;

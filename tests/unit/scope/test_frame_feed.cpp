@@ -8,7 +8,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using scope::FrameBlock;
 using scope::FrameFeed;
 using scope::FrameReader;

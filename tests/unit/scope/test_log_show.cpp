@@ -13,7 +13,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
-using namespace graben;
 using scope::LogShow;
 using test::TemporaryFile;
 

@@ -10,7 +10,6 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
-using namespace graben;
 using nlohmann::json;
 
 constexpr double kRounding = 1e-6;

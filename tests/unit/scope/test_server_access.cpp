@@ -5,7 +5,6 @@
 #include "tests/unit/scope/server_rig.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
-using namespace graben;
 using nlohmann::json;
 using test::ask;
 using test::assert_begins;

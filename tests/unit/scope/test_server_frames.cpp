@@ -8,7 +8,6 @@
 #include "tests/unit/scope/server_rig.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
-using namespace graben;
 using nlohmann::json;
 using test::Milliseconds;
 using test::Opcode;

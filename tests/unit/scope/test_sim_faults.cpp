@@ -7,7 +7,6 @@
 
 #include "tests/unit/scope/sim_watch.hpp"
 
-using namespace graben;
 using scope::SimReaction;
 using test::json;
 using test::SimWatch;

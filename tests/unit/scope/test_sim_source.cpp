@@ -11,7 +11,6 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 
-using namespace graben;
 using scope::FrameFeed;
 using Clock = std::chrono::steady_clock;
 using nlohmann::json;

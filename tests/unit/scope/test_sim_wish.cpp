@@ -6,7 +6,6 @@
 
 #include "tests/unit/scope/sim_watch.hpp"
 
-using namespace graben;
 using test::json;
 using test::options_of;
 using test::SimWatch;
