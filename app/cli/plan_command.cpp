@@ -22,7 +22,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/plan_run.hpp"
 #include "app/scope/page/scope_page.hpp"
-#include "firmware/excavator/tasks/line_plan.hpp"
+#include "firmware/excavator/motion/program/line_plan.hpp"
 
 namespace graben::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "app/ecu/ecu_process.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 #include "platform/linux/process.hpp"
 
 namespace graben::ecu {

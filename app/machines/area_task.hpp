@@ -4,7 +4,7 @@
 /// slope, truck loading. Dug in layers until their design is met.
 
 #include "app/machines/toml_reader.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 
 namespace graben::machines {
 

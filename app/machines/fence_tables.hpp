@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "firmware/excavator/tasks/fence.hpp"
+#include "firmware/excavator/limits/fence.hpp"
 
 namespace graben::machines {
 

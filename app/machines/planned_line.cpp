@@ -2,7 +2,7 @@
 #include "app/machines/planned_line.hpp"
 
 #include "app/machines/task_text.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 
 namespace graben::machines {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "firmware/excavator/excavator_profile.hpp"
-#include "firmware/excavator/tasks/line_plan.hpp"
+#include "firmware/excavator/motion/program/line_plan.hpp"
 
 namespace graben::machines {
 

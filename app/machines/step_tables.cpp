@@ -11,7 +11,7 @@
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/fence_tables.hpp"
 #include "app/machines/task_text.hpp"
-#include "firmware/excavator/tasks/step_round.hpp"
+#include "firmware/excavator/motion/dig/step_round.hpp"
 
 namespace graben::machines {
 namespace {

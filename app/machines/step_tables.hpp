@@ -3,7 +3,7 @@
 /// Steps of a task file: where each leads, how fast, what ends it, and how often all are done.
 
 #include "app/machines/toml_reader.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 
 namespace graben::machines {
 

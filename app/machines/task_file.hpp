@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/machines/profile_file.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 
 namespace graben::machines {
 

@@ -8,7 +8,7 @@
 
 #include "app/machines/axis_names.hpp"
 #include "app/machines/fence_tables.hpp"
-#include "firmware/excavator/tasks/step_round.hpp"
+#include "firmware/excavator/motion/dig/step_round.hpp"
 
 namespace graben::machines {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "firmware/excavator/tasks/line_plan.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/line_plan.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 
 namespace graben::machines {
 

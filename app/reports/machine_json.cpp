@@ -5,7 +5,7 @@
 #include "app/machines/imu_section.hpp"
 #include "app/reports/page_setup.hpp"
 #include "firmware/dozer/grade_profile.hpp"
-#include "firmware/excavator/field/dig_field.hpp"
+#include "firmware/excavator/motion/field/dig_field.hpp"
 
 namespace graben::reports {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "app/plant/soil/height_field.hpp"
 #include "app/runs/figures.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 
 namespace graben::runs {
 

@@ -16,7 +16,7 @@
 #include "app/runs/excavator_calm.hpp"
 #include "app/runs/figures.hpp"
 #include "app/runs/logged_run.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 
 namespace graben::runs {
 

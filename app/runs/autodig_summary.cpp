@@ -6,7 +6,7 @@
 
 #include "app/machines/task_text.hpp"
 #include "app/runs/load_figures.hpp"
-#include "firmware/excavator/tasks/task_run.hpp"
+#include "firmware/excavator/motion/program/task_run.hpp"
 
 namespace graben::runs {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/runs/figures.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 
 namespace graben::runs {
 

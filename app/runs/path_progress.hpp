@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "firmware/core/time.hpp"
-#include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 
 namespace graben::runs {

@@ -8,7 +8,7 @@
 
 #include "app/machines/excavator_file.hpp"
 #include "app/machines/task_file.hpp"
-#include "firmware/excavator/tasks/line_plan.hpp"
+#include "firmware/excavator/motion/program/line_plan.hpp"
 
 namespace graben::runs {
 

@@ -10,7 +10,7 @@
 #include "app/plant/command_link.hpp"
 #include "app/plant/excavator_node.hpp"
 #include "app/runs/plant_bus.hpp"
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 
 namespace graben::runs {
 

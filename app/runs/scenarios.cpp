@@ -11,7 +11,7 @@
 #include "app/machines/task_text.hpp"
 #include "app/plant/random.hpp"
 #include "app/runs/found_text.hpp"
-#include "firmware/excavator/tasks/task_run.hpp"
+#include "firmware/excavator/motion/program/task_run.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::runs {

@@ -8,7 +8,7 @@
 #include "app/runs/plant_faults.hpp"
 #include "app/runs/task_listener.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
-#include "firmware/excavator/tasks/line.hpp"
+#include "firmware/excavator/motion/program/line.hpp"
 
 namespace graben::runs {
 namespace {

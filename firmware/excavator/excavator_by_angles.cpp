@@ -3,7 +3,7 @@
 #include <array>
 
 #include "firmware/excavator/excavator_controller.hpp"
-#include "firmware/excavator/kinematics/measured_joints.hpp"
+#include "firmware/excavator/inputs/measured_joints.hpp"
 
 namespace graben {
 

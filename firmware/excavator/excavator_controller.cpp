@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "firmware/excavator/load/assumed_load.hpp"
+#include "firmware/excavator/estimation/load/assumed_load.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/excavator/excavator_controller.hpp"
-#include "firmware/excavator/load/assumed_load.hpp"
+#include "firmware/excavator/estimation/load/assumed_load.hpp"
 
 namespace graben {
 namespace {

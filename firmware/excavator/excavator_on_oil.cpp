@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "firmware/excavator/excavator_controller.hpp"
-#include "firmware/excavator/tasks/layer_pose.hpp"
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
 
 namespace graben {
 namespace {

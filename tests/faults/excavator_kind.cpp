@@ -5,7 +5,7 @@
 
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/machines/task_file.hpp"
-#include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "tests/unit/firmware/flip_bit.hpp"
 
 namespace graben {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "tests/faults/row.hpp"
 #include "tests/faults/trial.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "can_dbc/generated/j1939_dbc.hpp"
-#include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "tests/faults/row.hpp"
 
 namespace graben::faults {

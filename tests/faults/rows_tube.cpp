@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "tests/faults/row.hpp"
 
 namespace graben::faults {

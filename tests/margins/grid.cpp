@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "tests/margins/shipped_law.hpp"
 
 namespace graben::margins {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/machines/simulated/simulated_excavator.hpp"
-#include "firmware/excavator/oil/oil_gains.hpp"
+#include "firmware/excavator/estimation/oil/oil_gains.hpp"
 #include "tests/margins/loop_margins.hpp"
 
 namespace graben::margins {

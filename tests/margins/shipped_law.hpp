@@ -4,7 +4,7 @@
 /// are stepped about rest at a pose, and what comes out for each state and each input moved a
 /// little is a column.
 
-#include "firmware/excavator/oil/oil_law.hpp"
+#include "firmware/excavator/estimation/oil/oil_law.hpp"
 #include "tests/margins/linkage_on_oil.hpp"
 
 namespace graben::margins {

@@ -11,8 +11,8 @@
 #include "app/machines/planned_line.hpp"
 #include "app/machines/simulated/drive_sections.hpp"
 #include "app/machines/simulated/simulated_sections.hpp"
-#include "firmware/excavator/field/rounded_rectangle.hpp"
-#include "firmware/excavator/tasks/line_plan.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
+#include "firmware/excavator/motion/program/line_plan.hpp"
 
 namespace graben::machines {
 namespace {

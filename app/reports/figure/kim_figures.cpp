@@ -9,7 +9,7 @@
 
 #include "app/reports/figure/figure_table.hpp"
 #include "app/reports/figure/paper_figures.hpp"
-#include "firmware/excavator/field/rounded_rectangle.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::reports {

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "firmware/excavator/load/load_observer.hpp"
+#include "firmware/excavator/estimation/load/load_observer.hpp"
 #include "firmware/numeric/constants.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 

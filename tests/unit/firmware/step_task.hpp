@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "firmware/excavator/tasks/step_run.hpp"
+#include "firmware/excavator/motion/program/step_run.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/tasks/approach.hpp"
+#include "firmware/excavator/motion/program/approach.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"

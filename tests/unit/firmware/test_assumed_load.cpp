@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loads of a machine whose pressures nobody measures: the links' weight, and the worst.
 
-#include "firmware/excavator/load/assumed_load.hpp"
+#include "firmware/excavator/estimation/load/assumed_load.hpp"
 
 #include "app/machines/excavator_file.hpp"
 #include "app/machines/profile_file.hpp"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "firmware/excavator/field/dig_field.hpp"
+#include "firmware/excavator/motion/field/dig_field.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/fixture.hpp"

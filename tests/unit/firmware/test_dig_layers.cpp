@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/tasks/dig_layers.hpp"
+#include "firmware/excavator/motion/dig/dig_layers.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/tasks/hand_motion.hpp"
+#include "firmware/excavator/motion/hand/hand_motion.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lines that give way to their load: what boom and arm are opened for, and what the observer knows.
 
-#include "firmware/excavator/oil/held_load.hpp"
+#include "firmware/excavator/estimation/oil/held_load.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/tasks/layer_tare.hpp"
+#include "firmware/excavator/motion/dig/layer_tare.hpp"
 
 #include <vector>
 

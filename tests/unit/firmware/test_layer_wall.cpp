@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Walls that fall in, and are cut back beyond the line.
 
-#include "firmware/excavator/tasks/cut_force.hpp"
-#include "firmware/excavator/tasks/layer_height.hpp"
-#include "firmware/excavator/tasks/layer_run.hpp"
+#include "firmware/excavator/motion/dig/cut_force.hpp"
+#include "firmware/excavator/motion/dig/layer_height.hpp"
+#include "firmware/excavator/motion/dig/layer_run.hpp"
 #include "tests/unit/firmware/layer_machine.hpp"
 
 using namespace graben::layer_test;

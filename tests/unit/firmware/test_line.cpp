@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/tasks/line.hpp"
+#include "firmware/excavator/motion/program/line.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/tasks/line_plan.hpp"
+#include "firmware/excavator/motion/program/line_plan.hpp"
 
 #include <cmath>
 #include <limits>

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "firmware/drives/spool_lead.hpp"
-#include "firmware/excavator/oil/oil_cycle.hpp"
-#include "firmware/excavator/oil/oil_law.hpp"
+#include "firmware/excavator/estimation/oil/oil_cycle.hpp"
+#include "firmware/excavator/estimation/oil/oil_law.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 

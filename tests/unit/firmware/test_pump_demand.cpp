@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/pump_demand.hpp"
+#include "firmware/excavator/outputs/pump_demand.hpp"
 
 #include <algorithm>
 #include <random>

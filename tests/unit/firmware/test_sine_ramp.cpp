@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/tasks/drive_plan.hpp"
+#include "firmware/excavator/motion/program/drive_plan.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 

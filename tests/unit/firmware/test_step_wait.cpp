@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Waits for the operator's word.
 
-#include "firmware/excavator/tasks/step_round.hpp"
-#include "firmware/excavator/tasks/task_follow.hpp"
+#include "firmware/excavator/motion/dig/step_round.hpp"
+#include "firmware/excavator/motion/program/task_follow.hpp"
 #include "tests/unit/firmware/step_task.hpp"
 
 using namespace graben::test;

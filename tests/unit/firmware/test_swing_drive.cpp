@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "firmware/excavator/tasks/line_plan.hpp"
+#include "firmware/excavator/motion/program/line_plan.hpp"
 #include "firmware/mcv/optimiser.hpp"
 #include "tests/fuzz/plain_circuit.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"

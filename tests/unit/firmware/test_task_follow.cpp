@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/tasks/task_follow.hpp"
+#include "firmware/excavator/motion/program/task_follow.hpp"
 
 #include <limits>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/tasks/task_run.hpp"
+#include "firmware/excavator/motion/program/task_run.hpp"
 
 #include <limits>
 
-#include "firmware/excavator/tasks/task_program.hpp"
+#include "firmware/excavator/motion/program/task_program.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 

@@ -6,7 +6,7 @@
 #include "app/machines/imu_section.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/plant/excavator_node.hpp"
-#include "firmware/excavator/imus/imu_joints.hpp"
+#include "firmware/excavator/inputs/imu_joints.hpp"
 #include "firmware/numeric/constants.hpp"
 #include "hal/buses/excavator_bus.hpp"
 #include "tests/unit/plant/fixture/bus_rig.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "firmware/dozer/grade_profile.hpp"
-#include "firmware/excavator/field/dig_field.hpp"
+#include "firmware/excavator/motion/field/dig_field.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/excavator/estimation/load/load_observer.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/numeric/cube_root.hpp"
+
+namespace graben {
+namespace {
+
+/// Noise of a transducer, of its range, and what levers and sensed strokes put a force off, of it.
+constexpr double kNoise = 0.02;
+constexpr double kLeverOff = 0.01;
+/// Blocks follow each other with what is not noise in them; each tells so much less than it seems.
+constexpr double kAlike = 1.5;
+/// An axis that stands tells the less: its friction is the same all the time.
+constexpr double kStands = 4.0;
+/// Farther from what is expected, something touches the bucket.
+constexpr double kGate = 4.0;
+/// What the ground may do, N.
+constexpr double kForce_n = 60e3;
+/// What the ground bears the floor with, away from the teeth, and how it changes within the
+/// filters' lag put a force off, of it: by runs in four soils (tests/README.md).
+constexpr double kForceOff = 0.25;
+/// What a bucket may carry, kg, by the cube of its length; and the deviation.
+constexpr double kFill_kgpm3 = 450.0;
+constexpr double kEmptySd_kg = 3.0;
+constexpr double kHangs = 0.05;  ///< In a bucket that stands steeply, of what it may carry.
+constexpr double kOutwardSd_m = 0.05;
+/// Deviation of what is in the bucket while it fills: of a full one, and of what is expected; and
+/// of where it lies, m.
+constexpr double kFillOff = 0.25;
+constexpr double kFullOff = 0.3;
+constexpr double kFillOff_m = 0.1;
+/// Of loose soil; and height of a heap, whose sides slide at 38 degrees, over its volume's cube
+/// root.
+constexpr double kLoose_kgpm3 = 1300.0;
+constexpr double kHeap = 0.83;
+/// Higher no bucket pours on: what comes to more has been carried away, or lies elsewhere.
+constexpr double kHeapMost_m = 1.6;
+/// A payload is told after so many readings of an axis that moves, once its deviation is less than
+/// this share of a full bucket.
+constexpr int kWeighed = 10;
+constexpr double kTold = 0.12;
+/// So many blocks in a row that don't go with a payload: it was learnt from what was no payload.
+constexpr int kRefusedMost = 4;
+/// More than this is left aside: an axis that stands has friction of any sign.
+constexpr double kSteady = 0.99;
+static_assert(kLoadBlock == 3 * kAxisCount + 1, "a piece of the work for each cycle");
+
+double fill_kg(const ExcavatorGeometry& geometry) {
+  const double length_m = geometry.bucket_length_m;
+  return kFill_kgpm3 * length_m * length_m * length_m;
+}
+
+/// Deviation of one reading's noise, N.
+double noise_n(const ExcavatorProfile& profile, int axis) {
+  const CylinderGeometry& cylinder = profile.geometry.cylinder[static_cast<unsigned>(axis)];
+  return kNoise * profile.safety.pressure_rail_pa *
+         std::hypot(cylinder.cap_area_m2(), cylinder.rod_area_m2());
+}
+
+void forget_load(const ExcavatorGeometry& geometry, LoadTerms& terms) {
+  const double most_kg = fill_kg(geometry);
+  set_term(kLoadTerm, most_kg, 4.0 * most_kg, terms);
+  set_term(kOutwardTerm, 0.0, 2.0 * kOutwardSd_m * most_kg, terms);
+}
+
+bool is_weighed(const ExcavatorGeometry& geometry, const LoadObserver& observer) {
+  const double least_kg = kTold * fill_kg(geometry);
+  return observer.weighed >= kWeighed && observer.terms.variance(kLoadTerm) < least_kg * least_kg;
+}
+
+void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& observer) {
+  const double most_kg = fill_kg(geometry);
+  LoadTerms& terms = observer.terms;
+  switch (phase) {
+    case LoadPhase::kEmpty:
+      set_term(kLoadTerm, 0.0, kEmptySd_kg, terms);
+      set_term(kOutwardTerm, 0.0, kEmptySd_kg, terms);
+      break;
+    case LoadPhase::kCarries:
+      forget_load(geometry, terms);
+      break;
+    case LoadPhase::kHangs:
+      set_term(kLoadTerm, 0.0, kHangs * most_kg, terms);
+      set_term(kOutwardTerm, 0.0, kOutwardSd_m * most_kg, terms);
+      break;
+    case LoadPhase::kUnsaid:
+      if (observer.phase.kind == StepKind::kNone) {
+        set_term(kLoadTerm, 0.0, most_kg, terms);
+        set_term(kOutwardTerm, 0.0, kOutwardSd_m * most_kg, terms);
+      }
+      break;
+    case LoadPhase::kDigs:  // See expect_fill().
+    case LoadPhase::kPours:
+      break;
+  }
+  if (phase == LoadPhase::kPours && is_weighed(geometry, observer)) {
+    observer.last_fill_kg = std::max(0.0, terms.value[kLoadTerm]);
+    observer.poured_kg += observer.last_fill_kg;
+    observer.phase.heap_m =
+        std::min(kHeap * cube_root(observer.poured_kg / kLoose_kgpm3), kHeapMost_m);
+  }
+  observer.weighed = 0;
+  observer.refused = 0;
+  observer.cycle = 0;
+  observer.filling = {};
+  observer.full_phase = LoadPhase::kUnsaid;
+}
+
+void add(const LoadBalance& balance, BalanceBlock& block) {
+  constexpr double kShare = 1.0 / kLoadBlock;
+  block.force_n += kShare * balance.force_n;
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned place = 0; place < TermRow::kCount; ++place) {
+      block.row[axis].share[place] += kShare * balance.row[axis].share[place];
+    }
+    block.steady[axis] = std::abs(block.row[axis].share[1]) > kSteady;
+  }
+}
+
+/// Soil that begins to slide weighs elsewhere.
+bool opens(const LoadObserver& observer) {
+  return observer.full_phase == LoadPhase::kCarries && observer.full.row[kBucket].share[1] < -0.5;
+}
+
+bool learns(LoadPhase phase) {
+  return phase == LoadPhase::kEmpty || phase == LoadPhase::kCarries || phase == LoadPhase::kHangs;
+}
+
+/// An axis' share of the last block. One that stood has friction of either sign: it tells no more
+/// of an offset than that.
+SeenForce seen_of(const ExcavatorProfile& profile, int axis, const LoadObserver& observer) {
+  const auto k = static_cast<unsigned>(axis);
+  const BalanceBlock& block = observer.full;
+  const double coulomb_n = observer.terms.value[static_cast<unsigned>(kCoulombTerm + axis)];
+  const double noise = noise_n(profile, axis);
+  const double off_n = kLeverOff * block.force_n[axis];
+  return {block.row[k], block.force_n[axis],
+          kAlike * (noise * noise / kLoadBlock + off_n * off_n) +
+              (block.steady[k] ? 0.0 : kStands * coulomb_n * coulomb_n)};
+}
+
+/// Where one axis says that something touches the bucket, none of the block is learnt.
+void judge_axis(const ExcavatorProfile& profile, int axis, LoadObserver& observer) {
+  if (!is_likely(axis, seen_of(profile, axis, observer), kGate, observer.terms)) {
+    observer.full_phase = LoadPhase::kUnsaid;
+    ++observer.refused;
+  } else if (axis == kBucket) {
+    observer.refused = 0;
+  }
+  if (observer.refused == kRefusedMost && observer.phase.phase == LoadPhase::kCarries) {
+    forget_load(profile.geometry, observer.terms);
+    observer.refused = 0;
+    observer.weighed = 0;
+  }
+}
+
+void learn_axis(const ExcavatorProfile& profile, int axis, LoadObserver& observer) {
+  const SeenForce seen = seen_of(profile, axis, observer);
+  const bool steady = observer.full.steady[static_cast<unsigned>(axis)];
+  if (!steady && observer.terms.variance(kOffsetTerm + axis) < seen.variance_n2) {
+    return;
+  }
+  learn(axis, seen, observer.terms);
+  observer.weighed += steady ? 1 : 0;
+}
+
+/// One axis' row of what is open in the balances.
+void find_open(const ExcavatorProfile& profile, int axis, const LoadBalance& balance,
+               LoadObserver& observer) {
+  Eigen::Matrix3d& open_n2 = observer.gains.open_n2;
+  open_n2.row(axis) = force_covariance_n2(axis, balance.row, observer.terms).transpose();
+  const double side = balance.row[static_cast<unsigned>(axis)].share[1];
+  const double coulomb_n = observer.terms.value[static_cast<unsigned>(kCoulombTerm + axis)];
+  const double noise = kPairedNoise * noise_n(profile, axis);
+  const double off_n = kLeverOff * balance.force_n[axis];
+  open_n2(axis, axis) +=
+      (1.0 - side * side) * coulomb_n * coulomb_n + noise * noise + off_n * off_n;
+}
+
+/// Least squares of the force over all of it. The rows are of three cycles.
+void find_gains(const LoadBalance& balance, LoadGains& gains) {
+  const Eigen::Matrix3d open_n2 = 0.5 * (gains.open_n2 + gains.open_n2.transpose());
+  const Eigen::Matrix<double, 2, kAxisCount> weighted =
+      balance.teeth.transpose() * open_n2.inverse();
+  Eigen::Matrix2d told = weighted * balance.teeth;
+  told.diagonal().array() += 1.0 / (kForce_n * kForce_n);
+  const Eigen::Matrix2d left_n2 = told.inverse();
+  gains.force = -left_n2 * weighted;
+  gains.force_sd_n = std::sqrt(0.5 * left_n2.trace());
+}
+
+/// While it digs the bucket fills, to what was carried away last time.
+void expect_fill(const ExcavatorProfile& profile, double share, LoadObserver& observer) {
+  const double guess_kg = fill_kg(profile.geometry);
+  const double full_kg = observer.last_fill_kg > 0.0 ? observer.last_fill_kg : guess_kg;
+  const double done = observer.phase.kind == StepKind::kDig ? share : 1.0;
+  set_term(kLoadTerm, done * full_kg, kFillOff * guess_kg + kFullOff * done * full_kg,
+           observer.terms);
+  set_term(kOutwardTerm, 0.0, kFillOff_m * guess_kg, observer.terms);
+}
+
+/// What one axis tells of the last block: first each is judged, then each is learnt.
+void work_on_block(const ExcavatorProfile& profile, int piece, LoadObserver& observer) {
+  if (!learns(observer.full_phase) || opens(observer)) {
+    return;
+  }
+  if (piece < kAxisCount) {
+    judge_axis(profile, piece, observer);
+  } else {
+    learn_axis(profile, piece - kAxisCount, observer);
+  }
+}
+
+/// A piece in each cycle of a block: what is learnt, then the gains that follow from it.
+void work(const ExcavatorProfile& profile, const LoadBalance& balance, double share,
+          LoadObserver& observer) {
+  constexpr int kOpen = 2 * kAxisCount;
+  const int piece = observer.cycle;
+  if (piece == kOpen && observer.phase.phase == LoadPhase::kDigs) {
+    expect_fill(profile, share, observer);
+  }
+  if (piece < kOpen) {
+    work_on_block(profile, piece, observer);
+  } else if (piece < kOpen + kAxisCount) {
+    find_open(profile, piece - kOpen, balance, observer);
+  } else {
+    find_gains(balance, observer.gains);
+  }
+}
+
+void tell(const ExcavatorProfile& profile, const LoadBalance& balance, LoadObserver& observer) {
+  Eigen::Vector3d left_n = balance.force_n;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    left_n[axis] -= force_of(axis, balance.row[static_cast<unsigned>(axis)], observer.terms);
+  }
+  TipLoad& told = observer.told;
+  told.known = observer.gains.force_sd_n > 0.0;
+  told.force_n = observer.gains.force * left_n;
+  told.force_sd_n = std::hypot(observer.gains.force_sd_n, kForceOff * told.force_n.norm());
+  const LoadPhase phase = observer.phase.phase;
+  told.payload_known = phase == LoadPhase::kEmpty ||
+                       (phase == LoadPhase::kCarries && is_weighed(profile.geometry, observer));
+  told.payload_kg = told.payload_known ? observer.terms.value[kLoadTerm] : 0.0;
+  told.payload_sd_kg = told.payload_known ? std::sqrt(observer.terms.variance(kLoadTerm)) : 0.0;
+}
+
+}  // namespace
+
+void next_load(const ExcavatorProfile& profile, const LoadSeen& seen, StepKind kind, double share,
+               const TipPose& tip, double period_s, bool active, LoadObserver& observer) {
+  if (!seen.known || !seen.force_n.allFinite()) {
+    const LoadTerms terms = observer.terms;
+    observer = {};
+    observer.terms = terms;
+    return;
+  }
+  if (observer.terms.variance(kOffsetTerm) == 0.0) {
+    observer.terms = terms_unseen(profile);
+  }
+  if (!observer.begun) {
+    enter(LoadPhase::kUnsaid, profile.geometry, observer);
+  }
+  const LoadPhase before = observer.phase.phase;
+  next_phase(active ? kind : StepKind::kNone, share, tip, -profile.geometry.boom_foot_m.y(),
+             period_s, observer.phase);
+  if (observer.phase.phase != before) {
+    enter(observer.phase.phase, profile.geometry, observer);
+  }
+  LoadBalance balance;
+  next_balance(profile, seen, period_s, !observer.begun, observer.filter, balance);
+  observer.begun = true;
+  work(profile, balance, share, observer);
+  add(balance, observer.filling);
+  if (++observer.cycle == kLoadBlock) {
+    observer.full = observer.filling;
+    observer.full_phase = active ? observer.phase.phase : LoadPhase::kUnsaid;
+    observer.filling = {};
+    observer.cycle = 0;
+  }
+  tell(profile, balance, observer);
+}
+
+}  // namespace graben

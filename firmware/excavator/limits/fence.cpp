@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/excavator/limits/fence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/excavator/limits/keep_out.hpp"
+
+namespace graben {
+namespace {
+
+/// Those of the edge first, those of the counterweight last.
+constexpr std::array<MachinePoint, kGapMost> kGuarded = {
+    MachinePoint::kEdgeLeft,  MachinePoint::kEdgeRight, MachinePoint::kHeelLeft,
+    MachinePoint::kHeelRight, MachinePoint::kPinLeft,   MachinePoint::kPinRight,
+    MachinePoint::kBucketPin, MachinePoint::kArmPin,    MachinePoint::kBoomBend,
+    MachinePoint::kBoomFoot,  MachinePoint::kTailLeft,  MachinePoint::kTailRight};
+constexpr int kEdgeCorners = 2;
+constexpr int kTailCorners = 2;
+
+/// More upright than this is no wall: the machine stands on what is below it.
+constexpr double kWallMost = 0.5;
+
+/// Of what is round a point.
+double radius_m(const ExcavatorBody& body, MachinePoint point) {
+  switch (point) {
+    case MachinePoint::kBucketPin:
+      return body.arm_radius_m;
+    case MachinePoint::kArmPin:
+      return std::max(body.arm_radius_m, body.boom_radius_m);
+    case MachinePoint::kBoomBend:
+    case MachinePoint::kBoomFoot:
+      return body.boom_radius_m;
+    case MachinePoint::kTailLeft:
+    case MachinePoint::kTailRight:
+      return body.counterweight.corner_m;
+    default:
+      return 0.0;
+  }
+}
+
+bool is_wall(const Fence& plane) { return std::abs(plane.normal.z()) < kWallMost; }
+
+}  // namespace
+
+int gap_count(const Fence& fence, const ExcavatorBody& body) {
+  if (fence.guard == FenceGuard::kTeeth) {
+    return kEdgeCorners;
+  }
+  const bool has_tail = body.counterweight.known();
+  if (!fence.is_plane()) {
+    return has_tail ? kMachinePartCount : kMachinePartCount - 1;
+  }
+  return has_tail && is_wall(fence) ? kGapMost : kGapMost - kTailCorners;
+}
+
+FenceGap fence_gap(const Fence& fence, const ExcavatorBody& body, const MachineMotion& motion,
+                   int gap, double far_m) {
+  if (!fence.is_plane()) {
+    return keep_out_gap(fence, body, motion, static_cast<MachinePart>(gap), far_m);
+  }
+  const MachinePoint point = kGuarded[static_cast<unsigned>(gap)];
+  FenceGap result = fence_gap(fence, motion.at(point));
+  result.distance_m -= radius_m(body, point);
+  result.point = point;
+  return result;
+}
+
+}  // namespace graben

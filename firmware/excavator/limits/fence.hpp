@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What the machine must not pass: a ceiling, a floor, a wall, a design surface; and what it must
+/// not touch: boxes and upright cylinders. All in the ground frame of swing_kinematics.hpp.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/limits/machine_points.hpp"
+
+namespace graben {
+
+enum class FenceGuard : std::uint8_t {
+  kTeeth = 0,    ///< The edge alone: a design surface, which the arm may hang over or reach below.
+  kMachine = 1,  ///< All of the machine.
+};
+
+enum class FenceShape : std::uint8_t {
+  kPlane = 0,     ///< A half space is left to the machine.
+  kBox = 1,       ///< Upright, turned about the vertical.
+  kCylinder = 2,  ///< Upright.
+};
+
+/// A half space that is left to the machine: normal . p <= offset; or a box or a cylinder that is
+/// kept out of.
+struct Fence {
+  /// Of length 1. Of a plane: out of what is left. Of a box: level, along its first side.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  double offset_m = 0.0;  ///< Of a plane.
+  FenceGuard guard = FenceGuard::kMachine;
+  FenceShape shape = FenceShape::kPlane;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< Of a box or cylinder.
+  /// Half of a box's sides, the last its height; the radius of a cylinder (both) and half its
+  /// height.
+  Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] bool is_plane() const { return shape == FenceShape::kPlane; }
+};
+
+inline constexpr int kFenceMost = 8;
+
+struct FenceSet {
+  std::array<Fence, kFenceMost> fence;
+  int count = 0;
+};
+
+/// Something of the machine before a fence.
+struct FenceGap {
+  double distance_m = 0.0;   ///< Negative: beyond it.
+  double closing_mps = 0.0;  ///< Positive: towards it.
+  MachinePoint point = MachinePoint::kTeeth;
+};
+
+/// A point before a plane.
+[[nodiscard]] inline FenceGap fence_gap(const Fence& plane, const PointMotion& point) {
+  return {plane.offset_m - plane.normal.dot(point.position_m),
+          plane.normal.dot(point.velocity_mps)};
+}
+
+/// Most of gap_count(), of any fence.
+inline constexpr int kGapMost = kMachinePointCount - 1;
+
+/// Gaps that have to be looked at between the machine and a fence, each by itself: of a plane those
+/// of its points, of a design those of the edge's corners, of a keep-out those of the machine's
+/// parts (keep_out.hpp).
+[[nodiscard]] int gap_count(const Fence& fence, const ExcavatorBody& body);
+
+/// One of them, from 0. Exact for a plane; of a keep-out never more than the distance is, 0 where
+/// they touch, and whatever is beyond `far_m` may be told as that much.
+[[nodiscard]] FenceGap fence_gap(const Fence& fence, const ExcavatorBody& body,
+                                 const MachineMotion& motion, int gap, double far_m);
+
+/// A surface that is to be made: no digging below it.
+struct DesignPlane {
+  Eigen::Vector3d through_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Of length 1, out of the ground.
+  double clearance_m = 0.0;  ///< What planned digging keeps above it, along `up`.
+
+  [[nodiscard]] double height_m(const Eigen::Vector3d& position_m) const {
+    return up.dot(position_m - through_m);
+  }
+  [[nodiscard]] Fence fence() const {
+    Fence fence;
+    fence.normal = -up;
+    fence.offset_m = -up.dot(through_m);
+    fence.guard = FenceGuard::kTeeth;
+    return fence;
+  }
+};
+
+}  // namespace graben

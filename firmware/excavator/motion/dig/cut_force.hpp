@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// How heavy a cut is, by the tip's force, by how far the teeth are behind and by lambda.
+
+#include "firmware/excavator/motion/dig/layer_run.hpp"
+
+namespace graben {
+
+/// The force on the teeth against the edge's motion, of that which a cut gives way to: along the
+/// line, or upwards while the edge `enters`. 0 where no force is known.
+[[nodiscard]] double force_share(const LayerPlan& plan, const TeethLine& line, const CutSeen& seen,
+                                 bool enters);
+
+/// What the teeth sink by, m, once the heel is off the foot of the wall that it stands on: of a cut
+/// that begins beyond its line.
+[[nodiscard]] double off_foot_m(const LayerPlan& plan, const Cut& cut, const CutSeen& seen);
+
+/// 1: as heavy as a cut may be. `force`: by force_share().
+[[nodiscard]] double heaviness(double force, const CutSeen& seen);
+
+/// With the teeth so far behind their plan a cut is as heavy as it may be.
+inline constexpr double kBehind_m = 0.08;
+/// A cut that is so heavy stands.
+inline constexpr double kHoldsAt = 1.4;
+
+}  // namespace graben

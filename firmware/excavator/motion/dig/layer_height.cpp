@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/excavator/motion/dig/layer_height.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+constexpr double kRisesAtLeast = 0.25;
+/// A wall's foot is left standing beyond the line, in a hollow that rises so much a metre squared:
+/// up to where sand stands by itself. No soil slides on it.
+constexpr double kFoot_pm = 1.25;
+/// So much higher the edge comes from it, until it has gone so far along the line.
+constexpr double kFootHigher_m = 0.012;
+constexpr double kOffFoot = 0.06;
+
+/// Speed towards a height that comes to rest there.
+double speed_towards(double from_m, double to_m, double speed_mps, double most_down_mps,
+                     double period_s) {
+  const double off_m = to_m - from_m;
+  const double brakes_mps = std::sqrt(2.0 * kHeightChange_mps2 * std::abs(off_m));
+  const double most_mps = off_m > 0.0 ? kGives_mps : most_down_mps;
+  const double wanted_mps = std::copysign(std::min(most_mps, brakes_mps), off_m);
+  const double change_mps = kHeightChange_mps2 * period_s;
+  return std::clamp(wanted_mps, speed_mps - change_mps, speed_mps + change_mps);
+}
+
+}  // namespace
+
+double seen_height_m(const TaskProgram& program, const CutSeen& seen, const TaskState& state) {
+  const LayerState& layers = state.layers;
+  const TeethLine line = line_over(program, layers.cuts.cut.strip, layers.zero_m);
+  return turned(program.layers.up, strip_rad(program.layers, layers.cuts.cut.strip))
+      .dot(seen.teeth.position_m - line.from.position_m);
+}
+
+double wanted_height_m(const TaskProgram& program, const LayerState& layers) {
+  const Cut& cut = layers.cuts.cut;
+  const double steep = cut.thin ? cut.steep * steepness(program, cut, layers.share).share : 0.0;
+  // The foot of a wall beyond the line: nothing has to be met there, and it may break off.
+  const double beyond_m = std::max(0.0, -layers.share * program.layers.way_m);
+  // And where it ends, a heel that has stood on it comes down.
+  const double on_foot =
+      cut.from_share < 0.0 ? std::clamp(1.0 - layers.share / kOffFoot, 0.0, 1.0) : 0.0;
+  return cut.height_m + std::max(kSteepHigher_m * steep, kFootHigher_m * on_foot) +
+         kFoot_pm * beyond_m * beyond_m;
+}
+
+void rise(const LayerCycle& cycle, double target_m, double most_down_mps, TaskState& state) {
+  LayerState& layers = state.layers;
+  layers.height_mps =
+      speed_towards(layers.height_m, target_m, layers.height_mps, most_down_mps, cycle.period_s);
+  // The way up is free where the way down is barred.
+  const double by_s = layers.height_mps > 0.0
+                          ? std::max(cycle.advance_s, kRisesAtLeast * cycle.period_s)
+                          : state.pace_ratio * cycle.advance_s;
+  const double height_m = layers.height_m + by_s * layers.height_mps;
+  const TeethPose there =
+      cut_pose(cycle.program, layers.cuts.cut, layers.share, height_m + layers.zero_m);
+  if (cycle.kinematics.drive_from_teeth(there).blind.kind == BlindKind::kNone) {
+    layers.height_m = height_m;
+  } else {
+    layers.height_mps = 0.0;
+  }
+}
+
+}  // namespace graben

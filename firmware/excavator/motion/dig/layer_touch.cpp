@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/excavator/motion/dig/layer_touch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graben {
+namespace {
+
+/// Over the ground, from where it comes down and to where it goes up again: from there the bucket
+/// can be turned as a cut begins.
+constexpr double kOverGround_m = 0.9;
+/// From here on it comes down slowly, and knows what it weighs in the air.
+constexpr double kSlowFrom_m = 0.07;
+constexpr double kWeighed_m = 0.045;
+/// The ground is not looked for deeper, by the teeth and by a plan that they are late behind; and
+/// not taken for what the task means beyond kZeroMost_m.
+constexpr double kDeepest_m = 0.07;
+constexpr double kPlanDeepest_m = 0.14;
+constexpr double kZeroMost_m = 0.065;
+constexpr double kFalls_mps = 0.8;
+constexpr double kSlow_mps = 0.04;
+constexpr double kRises_mps = 0.8;
+constexpr double kChange_mps2 = 1.0;
+constexpr double kWeighs_s = 0.15;
+/// One reading's noise is not weight.
+constexpr double kHeard_s = 0.2;
+/// The ground bears this much of the force that a cut gives way to; or it holds the teeth so far
+/// above their plan, which late teeth in the air are too: then it bears something as well.
+constexpr double kBears = 0.12;
+constexpr double kHeldUp_m = 0.015;
+constexpr double kBearsHeld = 0.05;
+
+bool reaches(const SwingKinematics& kinematics, TeethPose pose, double ground_z_m) {
+  bool reached = true;
+  for (const double height_m : {kOverGround_m, 0.5 * kOverGround_m, 0.0, -kPlanDeepest_m}) {
+    pose.position_m.z() = ground_z_m + height_m;
+    reached = reached && kinematics.drive_from_teeth(pose).blind.kind == BlindKind::kNone;
+  }
+  return reached;
+}
+
+TeethPose flat_pose(const SwingKinematics& kinematics, const TaskProgram& program, int strip,
+                    double share) {
+  TeethPose pose = line_over(program, strip, 0.0).at(share);
+  pose.attitude_rad = kinematics.geometry().body.floor_rad;
+  return pose;
+}
+
+/// Towards a speed, with bounded acceleration.
+void change_speed(double wanted_mps, double period_s, LayerState& layers) {
+  const double by_mps = kChange_mps2 * period_s;
+  layers.height_mps =
+      std::clamp(wanted_mps, layers.height_mps - by_mps, layers.height_mps + by_mps);
+}
+
+}  // namespace
+
+double touch_share(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                   const TaskProgram& program) {
+  if (!profile.geometry.body.known()) {
+    return -1.0;
+  }
+  for (const double share : {0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95}) {
+    if (reaches(kinematics, flat_pose(kinematics, program, 0, share), program.layers.ground_z_m)) {
+      return share;
+    }
+  }
+  return -1.0;
+}
+
+bool touches_next(const TaskProgram& program, const TaskState& state) {
+  return program.layers.touch_share >= 0.0 && !state.layers.touched;
+}
+
+TeethPose touch_pose(const SwingKinematics& kinematics, const TaskProgram& program, int strip,
+                     double height_m) {
+  TeethPose pose = flat_pose(kinematics, program, std::max(0, strip), program.layers.touch_share);
+  pose.position_m.z() = program.layers.ground_z_m + height_m;
+  return pose;
+}
+
+TeethPose first_touch_pose(const SwingKinematics& kinematics, const TaskProgram& program,
+                           int strip) {
+  return touch_pose(kinematics, program, strip, kOverGround_m);
+}
+
+void begin_touch(TaskState& state) {
+  LayerState& layers = state.layers;
+  layers.phase = CutPhase::kTouches;
+  layers.height_m = kOverGround_m;
+  layers.height_mps = 0.0;
+  layers.give_m = 0.0;
+  layers.air_n = 0.0;
+  layers.up_n = 0.0;
+}
+
+bool touch_on(const TaskProgram& program, const CutSeen& seen, double advance_s, double period_s,
+              TaskState& state) {
+  LayerState& layers = state.layers;
+  const LayerPlan& plan = program.layers;
+  const double seen_m = seen.teeth.position_m.z() - plan.ground_z_m;
+  if (layers.touched) {
+    const double left_m = std::max(0.0, kOverGround_m - layers.height_m);
+    change_speed(std::min(kRises_mps, std::sqrt(2.0 * kChange_mps2 * left_m)), period_s, layers);
+    layers.height_m += std::max(0.0, layers.height_mps) * advance_s;
+    return layers.height_m > kOverGround_m - 0.01;
+  }
+  const double over_m = std::max(0.0, layers.height_m - kSlowFrom_m);
+  change_speed(
+      -std::min(kFalls_mps, std::sqrt(kSlow_mps * kSlow_mps + 2.0 * kChange_mps2 * over_m)),
+      period_s, layers);
+  layers.height_m += state.pace_ratio * layers.height_mps * advance_s;
+  const double up_n = seen.force_known ? seen.force_n.y() : 0.0;
+  if (seen_m > kWeighed_m) {
+    layers.air_n += std::min(1.0, period_s / kWeighs_s) * (up_n - layers.air_n);
+  }
+  const bool is_near = layers.height_m < kSlowFrom_m;
+  layers.up_n += std::min(1.0, period_s / kHeard_s) * (up_n - layers.up_n);
+  const bool bears = is_near && seen.force_known && up_n - layers.air_n > kBears * plan.force_n;
+  const bool held = is_near && seen_m - layers.height_m > kHeldUp_m && seen.lambda > 0.0 &&
+                    (!seen.force_known || layers.up_n - layers.air_n > kBearsHeld * plan.force_n);
+  const bool found = bears || held;
+  if (found || seen_m < -kDeepest_m || layers.height_m < -kPlanDeepest_m) {
+    layers.touched = true;
+    layers.zero_m = found && std::abs(seen_m) <= kZeroMost_m ? seen_m * plan.up.z() : 0.0;
+    layers.height_m = seen_m;
+    layers.height_mps = 0.0;
+  }
+  return false;
+}
+
+TaskAim aim_of_touch(const SwingKinematics& kinematics, const TaskProgram& program,
+                     const TaskState& state) {
+  TaskAim aim;
+  aim.kind = StepKind::kDig;
+  aim.teeth = touch_pose(kinematics, program, state.layers.cuts.cut.strip, state.layers.height_m);
+  const TeethPose along{{0.0, 0.0, state.layers.height_mps}, 0.0};
+  const double near_rad = std::atan2(aim.teeth.position_m.y(), aim.teeth.position_m.x());
+  const DriveMotion motion = kinematics.motion_from_teeth(aim.teeth, along, {}, near_rad);
+  aim.blind = motion.blind;
+  aim.value = motion.value;
+  aim.velocity = motion.rate;
+  return aim;
+}
+
+}  // namespace graben

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/excavator/motion/hand/hand_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/excavator/swing.hpp"
+#include "firmware/excavator/motion/program/drive_plan.hpp"
+
+namespace graben {
+namespace {
+
+// Levers of Coordinated.
+constexpr int kUp = 0;
+constexpr int kForward = 1;
+constexpr int kAttitude = 2;
+
+/// Teeth that the operator steers are slowed and sped up by so many times a line's acceleration.
+constexpr double kBrisk = 4.0;
+/// Until the attitude turns at its fastest.
+constexpr double kAttitudeRise_s = 0.6;
+/// So far ahead there has to be a pose.
+constexpr double kAhead_s = 0.05;
+
+/// Speed with full levers, and its change in a second.
+struct HandRange {
+  HandSpeed most = HandSpeed::Zero();
+  HandSpeed change_ps = HandSpeed::Zero();
+};
+
+HandRange hand_range(const ExcavatorProfile& profile, Task task) {
+  const DriveLimits limits = drive_limits(profile);
+  HandRange range{travel_of(profile, limits.speed_out), travel_of(profile, limits.acceleration)};
+  if (task == Task::kCoordinated) {
+    const double attitude_radps = profile.control.attitude_rate_max_radps;
+    const double tip_mps2 = kBrisk * profile.line.acceleration_mps2;
+    range.most.head<3>() << profile.dig_speed_mps, profile.dig_speed_mps, attitude_radps;
+    range.change_ps.head<3>() << tip_mps2, tip_mps2, attitude_radps / kAttitudeRise_s;
+  }
+  return range;
+}
+
+/// Up and forward change together, so that a way that begins or ends is straight.
+HandSpeed softened(const HandRange& range, Task task, const HandSpeed& target, HandSpeed last,
+                   double period_s) {
+  last = last.cwiseMin(range.most).cwiseMax(-range.most);
+  HandSpeed change = target - last;
+  int first = 0;
+  if (task == Task::kCoordinated) {
+    const double most = range.change_ps[kUp] * period_s;
+    const double wanted = change.head<2>().norm();
+    change.head<2>() *= wanted > most ? most / wanted : 1.0;
+    first = kAttitude;
+  }
+  for (int i = first; i < kDriveCount; ++i) {
+    const double most = range.change_ps[i] * period_s;
+    change[i] = std::clamp(change[i], -most, most);
+  }
+  return last + change;
+}
+
+HandSpeed target_of(const HandRange& range, const HandAsk& ask, bool released) {
+  HandSpeed levers = HandSpeed::Zero();
+  if (released) {
+    levers = HandSpeed(ask.lever_ratio.data()).cwiseMin(1.0).cwiseMax(-1.0);
+  }
+  const double both = levers.head<2>().norm();
+  if (ask.task == Task::kCoordinated && both > 1.0) {
+    levers.head<2>() /= both;
+  }
+  return ask.speed_override_ratio * range.most.cwiseProduct(levers);
+}
+
+/// Before the end of a drive, or so far from it.
+void slow_at_end(const DriveRow& drive, double then_m, double speed_mps, double margin_m,
+                 VelocityCap& cap) {
+  const double left_m =
+      speed_mps > 0.0 ? drive.most_travel_m - then_m : then_m - drive.least_travel_m;
+  approach(drive.control.stroke_end_gain_ps, drive.control.deceleration_mps2, left_m - margin_m,
+           std::abs(speed_mps), drive.control.at_end, cap);
+}
+
+/// Each drive by itself; what it may have less is its end's.
+void slow_each(DriveRows drives, const DriveVector& then_m, HandWant& want) {
+  want.wanted_mps.setZero();
+  for (int i = 0; i < drives.count(); ++i) {
+    VelocityCap cap;
+    slow_at_end(drives[i], then_m[i], want.speed[i], 0.0, cap);
+    want.wanted_mps[i] = cap.factor * want.speed[i];
+    want.cap.limit = cap.limit.kind == LimitKind::kNone ? want.cap.limit : cap.limit;
+  }
+  want.speed = want.wanted_mps;
+}
+
+TipPose moved(const TipPose& tip, const HandSpeed& speed, double time_s) {
+  return {tip.x_m + time_s * speed[kForward], tip.y_m + time_s * speed[kUp],
+          tip.attitude_rad + time_s * speed[kAttitude]};
+}
+
+/// Whose end it is that there is no pose.
+int axis_of(const PathMotion& motion) {
+  switch (motion.status) {
+    case ReachStatus::kBoomStroke:
+      return kBoom;
+    case ReachStatus::kBucketStroke:
+    case ReachStatus::kLinkageOpen:
+      return kBucket;
+    case ReachStatus::kSingular:
+      return motion.axis;
+    default:
+      return kArm;
+  }
+}
+
+double distance_m(const TipPose& one, const TipPose& other) {
+  return std::hypot(one.x_m - other.x_m, one.y_m - other.y_m);
+}
+
+/// Teeth where all that has arrived by now should have brought them.
+double error_m(DriveRows drives, const ExcavatorKinematics& kinematics, const KinematicState& now,
+               const ExcavatorServo& servo, const DriveVector& planned_m) {
+  DriveVector due_m = planned_m - servo.under_way_m();
+  for (int i = 0; i < kAxisCount; ++i) {
+    due_m[i] = std::clamp(due_m[i], drives[i].least_travel_m, drives[i].most_travel_m);
+  }
+  const KinematicState due = kinematics.state(due_m.head<kAxisCount>());
+  return due.status == ReachStatus::kOk ? distance_m(due.tip, now.tip) : 0.0;
+}
+
+void lead_teeth(DriveRows drives, const ExcavatorKinematics& kinematics, const KinematicState& now,
+                const ExcavatorServo& servo, const HandState& state, HandWant& want) {
+  want.tip = state.plans ? state.tip : now.tip;
+  want.planned_m = state.plans ? state.planned_m : servo.strokes_m();
+  want.moves = !want.speed.isZero(0.0);
+  if (!want.moves || now.status != ReachStatus::kOk) {
+    return;
+  }
+  want.error_m = state.plans ? error_m(drives, kinematics, now, servo, want.planned_m) : 0.0;
+  const TipPose rate = moved({}, want.speed, 1.0);
+  const PathMotion here = kinematics.motion_from_pose(want.tip, rate, {});
+  const PathMotion ahead =
+      kinematics.motion_from_pose(moved(want.tip, want.speed, kAhead_s), rate, {});
+  const PathMotion& blind = here.status == ReachStatus::kOk ? ahead : here;
+  if (blind.status != ReachStatus::kOk) {
+    want.cap.limit = drives[axis_of(blind)].control.at_end;
+    want.speed.setZero();
+    return;
+  }
+  want.planned_m.head<kAxisCount>() = here.strokes_m;
+  want.wanted_mps = with_swing(want.wanted_mps, want.speed[kSwing]);
+  want.wanted_mps.head<kAxisCount>() = here.strokes_rate;
+  want.wanted_mps *= state.pace_ratio;
+  for (int i = 0; i < kAxisCount; ++i) {
+    slow_at_end(drives[i], want.planned_m[i], want.wanted_mps[i], kLineEnds_m, want.cap);
+  }
+  // Corrections stay whole: they keep the line straight while it ends.
+  want.wanted_mps *= want.cap.factor;
+}
+
+}  // namespace
+
+HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
+                      const ExcavatorKinematics& kinematics, const KinematicState& now,
+                      const ExcavatorServo& servo, const HandAsk& ask, const HandState& state,
+                      double period_s) {
+  const HandRange range = hand_range(profile, ask.task);
+  HandWant want;
+  want.speed =
+      softened(range, ask.task, target_of(range, ask, state.released), state.speed, period_s);
+  if (!profile.has_swing()) {
+    want.speed = with_swing(want.speed, 0.0);
+  }
+  if (ask.task == Task::kJog) {
+    slow_each(drives, strokes_then_m(drives, servo), want);
+    want.moves = !want.wanted_mps.isZero(0.0);
+  } else {
+    lead_teeth(drives, kinematics, now, servo, state, want);
+  }
+  return want;
+}
+
+HandState next_by_hand(const LineProfile& line, const HandWant& want, const HandAsk& ask,
+                       const HandState& last, double followed_ratio, double period_s) {
+  HandState next;
+  const auto rests = [](double ratio) { return ratio == 0.0; };
+  next.released =
+      last.released || std::all_of(ask.lever_ratio.begin(), ask.lever_ratio.end(), rests);
+  next.speed = want.speed;
+  if (ask.task != Task::kCoordinated || !want.moves) {
+    return next;
+  }
+  next.plans = true;
+  next.is_new = !last.plans;
+  const double by_s = last.pace_ratio * want.cap.factor * followed_ratio * period_s;
+  next.tip = moved(want.tip, want.speed, by_s);
+  next.planned_m = want.planned_m + followed_ratio * period_s * want.wanted_mps;
+  const double slow_m = line.slow_error_m + line.slow_error_s * want.speed.head<2>().norm();
+  const double off = want.error_m / slow_m;
+  const double change = line.pace_rate_ps * period_s;
+  next.pace_ratio =
+      std::clamp(1.0 / (1.0 + off * off), last.pace_ratio - change, last.pace_ratio + change);
+  return next;
+}
+
+}  // namespace graben

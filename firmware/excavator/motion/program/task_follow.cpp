@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/excavator/motion/program/task_follow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/excavator/swing.hpp"
+#include "firmware/excavator/motion/program/step_run.hpp"
+
+namespace graben {
+namespace {
+
+/// Wide enough for whatever a bit may make of the step.
+std::int64_t place_of(bool runs, std::uint8_t number, const TaskState& state) {
+  const std::int64_t step = state.step;
+  const std::int64_t where = (step * 256 + state.round) * 256 + number;
+  return (where * 4 + static_cast<int>(state.phase)) * 2 + (runs ? 1 : 0);
+}
+
+TeethPose teeth_of(const SwingKinematics& kinematics, const DriveVector& drives) {
+  return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value);
+}
+
+/// Into the drives' ranges: what is under way may be what a correction has asked for.
+DriveVector bounded(DriveRows drives, DriveVector travel_m) {
+  for (int i = 0; i < drives.count(); ++i) {
+    travel_m[i] = std::clamp(travel_m[i], drives[i].least_travel_m, drives[i].most_travel_m);
+  }
+  return travel_m;
+}
+
+constexpr double kStands_mps = 0.02;
+
+/// A drive that a move hardly moves is left to its corrections: its load would hold up all others.
+DriveVector without_trifles(const DriveVector& velocity_mps) {
+  constexpr double kTrifle = 1e-3;
+  const double least_mps = kTrifle * velocity_mps.cwiseAbs().maxCoeff();
+  return (velocity_mps.array().abs() < least_mps).select(0.0, velocity_mps);
+}
+
+/// Of an error, what is not ahead along the planned motion of the teeth.
+double behind_m(const SwingKinematics& kinematics, const TaskAim& aim,
+                const Eigen::Vector3d& due_less_at_m) {
+  const MachineMotion planned = machine_motion(kinematics, aim.value, aim.velocity);
+  const Eigen::Vector3d& velocity_mps =
+      planned.point[static_cast<unsigned>(MachinePoint::kTeeth)].velocity_mps;
+  const double speed_mps = velocity_mps.norm();
+  if (planned.status != ReachStatus::kOk || speed_mps < kStands_mps) {
+    return due_less_at_m.norm();
+  }
+  const double along_m = due_less_at_m.dot(velocity_mps) / speed_mps;
+  const double across_m2 = due_less_at_m.squaredNorm() - along_m * along_m;
+  return std::sqrt(std::max(0.0, across_m2) + std::pow(std::max(0.0, along_m), 2));
+}
+
+TaskProgress progress_of(const TaskProgram& program, const TaskMemory& memory, const TaskAim& aim) {
+  TaskProgress progress;
+  progress.runs = true;
+  progress.number = memory.number;
+  const bool approaches = memory.state.phase == TaskPhase::kApproach;
+  progress.step = approaches ? std::uint8_t{0} : static_cast<std::uint8_t>(memory.state.step);
+  progress.kind = aim.kind;
+  progress.share = aim.share;
+  progress.missed = memory.state.missed;
+  progress.round = memory.state.round;
+  progress.next_round = static_cast<std::uint8_t>(next_round(program, memory.state));
+  progress.last_end = memory.state.last_end;
+  progress.off_plan = memory.state.off_plan;
+  return progress;
+}
+
+/// Stores twice what tells where the state is.
+void keep(TaskMemory& memory) {
+  memory.time_s = memory.state.time_s;
+  memory.pace_ratio = memory.state.pace_ratio;
+  memory.place = place_of(memory.runs, memory.number, memory.state);
+}
+
+/// Looks for the way on; runs once it is found. Not inlined: its states would lie on the stack
+/// below a cut's, which is the deepest there is.
+[[gnu::noinline]] void search(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                              const TaskProgram& program, std::uint8_t number,
+                              const DriveVector& drives_now, TaskMemory& memory) {
+  if (!memory.search.runs || memory.search.number != number) {
+    memory.search = {};
+    memory.state.approach = {};
+  }
+  if (memory.number != number) {
+    memory.state.layers = {};
+  }
+  memory.runs = false;
+  memory.number = number;
+  memory.search.runs = true;
+  memory.search.number = number;
+  const LayerState layers = memory.state.layers;
+  search_approach(profile, kinematics, program, drives_now, memory.search, memory.state.approach);
+  if (memory.search.found) {
+    memory.state =
+        task_start(profile, kinematics, program, drives_now, ApproachWay{memory.search.way});
+    memory.search = {};
+    memory.runs = true;
+  } else {
+    memory.state.phase = TaskPhase::kDone;
+  }
+  memory.state.layers = layers;
+  keep(memory);
+}
+
+/// The operator may have moved it a little meanwhile; from elsewhere the task begins anew.
+constexpr double kStillThere_m = 0.1;
+
+bool goes_on_from_wait(const SwingKinematics& kinematics, const TaskProgram& program,
+                       std::uint8_t number, const DriveVector& drives, const TaskMemory& memory) {
+  if (memory.runs || !memory.state.word || memory.number != number) {
+    return false;
+  }
+  const TeethPose waits = teeth_of(kinematics, current_step(program, memory.state).drives.from);
+  return (teeth_of(kinematics, drives).position_m - waits.position_m).norm() < kStillThere_m;
+}
+
+}  // namespace
+
+bool TaskMemory::intact() const {
+  return time_s.intact() && pace_ratio.intact() && place.intact() &&
+         time_s.value() == state.time_s && pace_ratio.value() == state.pace_ratio &&
+         place.value() == place_of(runs, number, state);
+}
+
+TaskMemory remembered(std::uint8_t number, const TaskState& state) {
+  TaskMemory memory;
+  memory.runs = true;
+  memory.number = number;
+  memory.state = state;
+  keep(memory);
+  return memory;
+}
+
+TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
+                      const SwingKinematics& kinematics, const TaskProgram& program,
+                      const TaskMemory& memory, const TaskAim& aim, const ExcavatorServo& servo,
+                      double speed_override_ratio) {
+  TaskWant want;
+  want.runs = true;
+  want.known = aim.blind.kind == BlindKind::kNone;
+  want.progress = progress_of(program, memory, aim);
+  want.holds = memory.state.phase != TaskPhase::kDone;
+  want.planned_m = travel_of(profile, aim.value);
+  want.teeth = teeth_of(kinematics, drives_of(profile, servo.strokes_m()));
+  const Eigen::Vector3d& at_m = want.teeth.position_m;
+  const Eigen::Vector3d due_m =
+      teeth_of(kinematics,
+               drives_of(profile, bounded(drives, want.planned_m - servo.under_way_m())))
+          .position_m;
+  want.error_m = (at_m - due_m).norm();
+  const bool cut = cuts(program, memory.state);
+  const bool straight = cut || on_line(program, memory.state);
+  want.moves = want.holds && !straight;
+  const TaskStep& step = current_step(program, memory.state);
+  want.path_error_m = cut        ? line_distance_m(cut_line(program, memory.state), at_m)
+                      : straight ? line_distance_m(step.line.line, at_m)
+                                 : want.error_m;
+  want.off_m =
+      straight ? want.path_error_m : std::max(0.0, want.error_m - profile.line.move_slow_error_m);
+  want.behind_m = straight ? want.error_m : behind_m(kinematics, aim, due_m - at_m);
+  want.astray = !in_layers(program) && is_astray(memory.state, want.behind_m);
+  want.bides = !in_layers(program) && memory.state.settle_s > 0.0 && !want.astray;
+  want.pace_ratio = memory.state.pace_ratio;
+  const DriveVector planned_mps = travel_of(profile, want.pace_ratio * aim.velocity + aim.at_once);
+  want.wanted_mps =
+      speed_override_ratio * (want.moves ? without_trifles(planned_mps) : planned_mps);
+  return want;
+}
+
+TaskMemory stopped(const TaskMemory& last) {
+  TaskMemory memory;
+  if (last.state.waits) {
+    memory = last;
+    memory.runs = false;
+    memory.search = {};
+    memory.state.word = true;
+  } else if (last.state.phase != TaskPhase::kDone) {
+    memory.number = last.number;
+    memory.state.layers.begun = last.state.layers.begun;
+    memory.state.layers.cuts = last.state.layers.cuts;
+    memory.state.layers.touched = last.state.layers.touched;
+    memory.state.layers.zero_m = last.state.layers.zero_m;
+  }
+  memory.place = place_of(false, memory.number, memory.state);
+  return memory;
+}
+
+void next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+               const TaskProgram& program, std::uint8_t number, const DriveVector& travel_m,
+               double followed_ratio, const CutSeen& seen, double period_s, TaskMemory& memory) {
+  if (goes_on_from_wait(kinematics, program, number, drives_of(profile, travel_m), memory)) {
+    memory.runs = true;
+    memory.state.settle_s = 0.0;
+    memory.state.calm_s = 0.0;
+  }
+  if (!memory.runs || memory.number != number) {
+    memory.state.waits = false;
+    memory.state.word = false;
+    search(profile, kinematics, program, number, drives_of(profile, travel_m), memory);
+    return;
+  }
+  const double advance_s = followed_ratio * period_s;
+  if (in_layers(program)) {
+    layer_advance(profile, kinematics, program, advance_s, period_s, seen, memory.state);
+  } else {
+    steps_advance(profile, kinematics, program, advance_s, period_s, seen, memory.state);
+  }
+  keep(memory);
+}
+
+}  // namespace graben
