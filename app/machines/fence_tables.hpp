@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "firmware/excavator/limits/fence.hpp"
+#include "firmware/excavator/fences/fence.hpp"
 
 namespace graben::machines {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/plant/excavator_plant.hpp"
-#include "firmware/excavator/limits/fence.hpp"
+#include "firmware/excavator/fences/fence.hpp"
 
 namespace graben::runs {
 

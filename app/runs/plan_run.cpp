@@ -9,7 +9,7 @@
 #include "app/machines/axis_names.hpp"
 #include "app/machines/task_text.hpp"
 #include "app/runs/figures.hpp"
-#include "firmware/excavator/limits/machine_points.hpp"
+#include "firmware/excavator/fences/machine_points.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::runs {

@@ -280,10 +280,10 @@ void Excavator::flip(Ecu& ecu, unsigned setpoint, unsigned bit) {
       test::flip_bit(memory.cycle.mode, bit);
       break;
     case 1:
-      test::flip_bit(memory.lambda, bit);
+      test::flip_bit(memory.last.flow.lambda, bit);
       break;
     default:
-      test::flip_bit(memory.opening[setpoint % kAxes], bit);
+      test::flip_bit(memory.output.opening[setpoint % kAxes], bit);
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
-#include "firmware/excavator/limits/fence_margin.hpp"
+#include "firmware/excavator/fences/fence_margin.hpp"
 
 namespace graben {
 

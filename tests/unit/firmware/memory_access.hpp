@@ -9,10 +9,14 @@ namespace graben {
 
 struct ControllerMemoryAccess {
   static auto& mode(ExcavatorController& controller) { return controller.memory_.cycle.mode; }
-  static auto& lambda(ExcavatorController& controller) { return controller.memory_.lambda; }
-  static auto& opening(ExcavatorController& controller) { return controller.memory_.opening; }
-  static auto& task(ExcavatorController& controller) { return controller.memory_.task; }
-  static auto& last(ExcavatorController& controller) { return controller.memory_.last; }
+  static auto& lambda(ExcavatorController& controller) {
+    return controller.memory_.last.flow.lambda;
+  }
+  static auto& opening(ExcavatorController& controller) {
+    return controller.memory_.output.opening;
+  }
+  static auto& task(ExcavatorController& controller) { return controller.memory_.motion.task; }
+  static auto& last(ExcavatorController& controller) { return controller.memory_.last.commands; }
 };
 
 struct DozerMemoryAccess {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Boxes and cylinders against points all over the machine's parts: how far the nearest is.
 
-#include "firmware/excavator/limits/keep_out.hpp"
+#include "firmware/excavator/fences/keep_out.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"

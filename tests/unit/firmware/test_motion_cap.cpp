@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/limits/fence.hpp"
+#include "firmware/excavator/fences/fence.hpp"
 
 #include <limits>
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/fences/fence_margin.hpp"
 #include "firmware/excavator/swing.hpp"
-#include "firmware/excavator/limits/fence_margin.hpp"
 
 namespace graben {
 namespace {

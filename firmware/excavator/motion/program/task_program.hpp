@@ -4,9 +4,9 @@
 /// moves.
 
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/fences/fence.hpp"
 #include "firmware/excavator/motion/dig/dig_layers.hpp"
 #include "firmware/excavator/motion/program/drive_plan.hpp"
-#include "firmware/excavator/limits/fence.hpp"
 #include "firmware/excavator/motion/program/line_plan.hpp"
 
 namespace graben {

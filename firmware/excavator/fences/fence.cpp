@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/limits/fence.hpp"
+#include "firmware/excavator/fences/fence.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/limits/keep_out.hpp"
+#include "firmware/excavator/fences/keep_out.hpp"
 
 namespace graben {
 namespace {

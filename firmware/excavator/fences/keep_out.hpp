@@ -2,7 +2,7 @@
 #pragma once
 /// How far the machine's parts are from a box or an upright cylinder that it must not touch.
 
-#include "firmware/excavator/limits/fence.hpp"
+#include "firmware/excavator/fences/fence.hpp"
 
 namespace graben {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/limits/machine_points.hpp"
+#include "firmware/excavator/fences/machine_points.hpp"
 
 #include <algorithm>
 #include <cmath>

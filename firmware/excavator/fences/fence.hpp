@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "firmware/excavator/excavator_profile.hpp"
-#include "firmware/excavator/limits/machine_points.hpp"
+#include "firmware/excavator/fences/machine_points.hpp"
 
 namespace graben {
 

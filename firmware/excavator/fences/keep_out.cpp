@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/limits/keep_out.hpp"
+#include "firmware/excavator/fences/keep_out.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,7 @@
 /// A design surface is made, not kept away from: its margin is 0.
 
 #include "firmware/excavator/excavator_profile.hpp"
-#include "firmware/excavator/limits/fence.hpp"
+#include "firmware/excavator/fences/fence.hpp"
 
 namespace graben {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/limits/fence_margin.hpp"
+#include "firmware/excavator/fences/fence_margin.hpp"
 
 namespace graben {
 

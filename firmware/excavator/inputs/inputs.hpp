@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// First stage of a cycle: from signals to what may be used of them, with every fault that they
+/// show.
+
+#include "firmware/drives/commission_guard.hpp"
+#include "firmware/estimation/foretold_angle.hpp"
+#include "firmware/excavator/excavator_model.hpp"
+#include "firmware/excavator/inputs/excavator_validation.hpp"
+#include "firmware/excavator/inputs/imu_joints.hpp"
+#include "firmware/excavator/last_cycle.hpp"
+#include "firmware/safety/cycle.hpp"
+#include "firmware/safety/task_change.hpp"
+
+namespace graben {
+
+/// State from cycle to cycle.
+struct InputState {
+  std::array<AcceptedStroke, kDriveCount> accepted;
+  ImuState imus;
+  std::array<ForetoldAngle, kAxisCount> foretold;  ///< Of measured joints that come late.
+  JointAngles joints;
+  ExcavatorWatchState watch;
+  TaskChangeState change;
+  std::array<CommissionState, kDriveCount> commission;
+  std::array<double, kDriveCount> tried_ratio{};  ///< Duties of this cycle that may be sent.
+};
+
+/// Strokes by their sensors, by IMUs or by measured joints, validated and watched against what the
+/// last cycle commanded; the task that is to be followed, of `program_count` programs and the
+/// others; the duties to try that may be sent.
+[[nodiscard]] ExcavatorValid read_inputs(const ExcavatorModel& machine, int program_count,
+                                         const ExcavatorInputs& inputs, const Cycle& cycle,
+                                         TimeUs now_us, const LastCycle& last, InputState& state);
+
+/// True where the task is to move something by the operator's levers.
+[[nodiscard]] inline bool is_by_lever(Task task) {
+  return task == Task::kJog || task == Task::kCoordinated;
+}
+
+}  // namespace graben

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What a cycle hands to the next: what it commanded, and how that was followed. Written once, at
+/// its end.
+
+#include "firmware/core/guarded.hpp"
+#include "firmware/drives/drive_watch.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/safety/stall_watch.hpp"
+#include "firmware/safety/tube.hpp"
+
+namespace graben {
+
+/// The valve's flow as the last cycle solved it.
+struct LastFlow {
+  Guarded<double> lambda;     ///< Of the path, without corrections; 0 out of motion.
+  double of_corrected = 1.0;  ///< Share of that, with corrections (Followed).
+  PerPump<double> line_pa{};  ///< Pressure of each pump's line.
+  /// How much less flow boom and arm get for each newton more; 0 of a line that does not give way.
+  Eigen::Vector2d yield_mpsn = Eigen::Vector2d::Zero();
+};
+
+struct LastCycle {
+  LastCommands<kDriveCount> commands;
+  std::array<double, kPumpCount> swash_ratio{};
+  LastFlow flow;
+  /// lambda V_L^d, without corrections: what the servos expect of the drives.
+  DriveVector expected_mps = DriveVector::Zero();
+  double swing_wanted_mps = 0.0;  ///< V_L^d of a program's swing.
+  bool jogs = false;              ///< Drives that are not told to move are nobody's.
+  StallState stall;
+  TubeState tube;
+};
+
+}  // namespace graben

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/excavator/limits/limits.hpp"
+
+#include <algorithm>
+
+#include "firmware/excavator/estimation/load/assumed_load.hpp"
+#include "firmware/excavator/limits/motion_cap.hpp"
+#include "firmware/excavator/swing.hpp"
+
+namespace graben {
+namespace {
+
+/// A move goes on without corrections that leave less than this share of it: no line is off then,
+/// and where a small correction needs more pressure than its pump has they never would be made.
+constexpr double kHeldUp = 0.3;
+/// Of the weight, from which on the oil's law decides.
+constexpr double kLeads = 0.5;
+
+void ease_blocked(const ExcavatorModel& machine, Span<const BlockedState> blocked, Motion& motion) {
+  motion.towards_mps = motion.corrected_mps;
+  motion.eases = any_eases(blocked);
+  if (motion.eases) {
+    motion.corrected_mps.setZero();
+  }
+  for (int i = 0; i < machine.drives.count(); ++i) {
+    motion.corrected_mps[i] = eased_mps(blocked[i], motion.wanted_mps[i], motion.corrected_mps[i]);
+  }
+}
+
+void hold_at_fences(const ExcavatorModel& machine, const InputState& inputs,
+                    const EstimationState& estimates, double zero_m, const LastCycle& last,
+                    Motion& motion) {
+  const double coast_m =
+      machine.profile.has_swing()
+          ? swing_coast_m(inputs.accepted[kSwing].speed_mps, last.commands.asked_mps[kSwing])
+          : 0.0;
+  const MotionCap cap = motion_cap(machine.profile, machine.drives, machine.kinematics,
+                                   *motion.fences, strokes_then_m(machine.drives, estimates.servo),
+                                   motion.corrected_mps, coast_m, zero_m);
+  motion.cap = static_cast<const VelocityCap&>(cap);
+  motion.wanted_mps = motion.wanted_mps.cwiseProduct(cap.share);
+  motion.corrected_mps = motion.corrected_mps.cwiseProduct(cap.share);
+}
+
+void park_spools(const ExcavatorModel& machine, const ExcavatorValid& valid,
+                 const EstimationState& estimates, double period_s, const LastCycle& last,
+                 Motion& motion, LimitState& state) {
+  if (valid.task != Task::kDig || estimates.oil.weight < kLeads || motion.eases) {
+    state.parking = {};
+    return;
+  }
+  const double lambda =
+      std::max(last.flow.lambda.value(), machine.profile.control.servo_least_lambda);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (park(motion.wanted_mps[axis], lambda * motion.corrected_mps[axis], period_s,
+             state.parking[static_cast<unsigned>(axis)])) {
+      motion.corrected_mps[axis] = 0.0;
+    }
+  }
+}
+
+}  // namespace
+
+McvInput valve_input(const ExcavatorModel& machine, const DriveVector& wanted_mps,
+                     const ExcavatorValid& valid, const EstimationState& estimates) {
+  const auto load = machine.profile.bus.pressures
+                        ? estimates.load
+                        : worst_loads(machine.profile, machine.drives, estimates.load, wanted_mps);
+  return mcv_input(span_of(wanted_mps), load, valid.pump_flow_m3ps);
+}
+
+void hold_back(const ExcavatorModel& machine, const ExcavatorValid& valid, const InputState& inputs,
+               const EstimationState& estimates, const MotionMemory& task, double period_s,
+               const LastCycle& last, Motion& motion, LimitState& state) {
+  ease_blocked(machine, inputs.watch.drives.blocked, motion);
+  if (motion.fences == nullptr) {
+    slow_at_ends(machine.drives, valid.drive, span_of(motion.corrected_mps), motion.cap);
+  } else {
+    const bool by_lever = is_by_lever(valid.task);
+    hold_at_fences(machine, inputs, estimates, by_lever ? 0.0 : task.task.state.layers.zero_m, last,
+                   motion);
+    if (by_lever && motion.cap.limit.kind == LimitKind::kNone) {
+      motion.cap.limit = motion.hand.cap.limit;
+    }
+  }
+  park_spools(machine, valid, estimates, period_s, last, motion, state);
+}
+
+Followed flow_limited(const ExcavatorModel& machine, const ExcavatorValid& valid,
+                      const EstimationState& estimates, const Motion& motion, double period_s,
+                      const LastCycle& last) {
+  const ControlProfile& control = machine.profile.control;
+  McvInput input = valve_input(machine, motion.wanted_mps, valid, estimates);
+  const auto scale_to = [&](double factor, const DriveVector& velocity_mps) {
+    for (unsigned i = 0; i < kDriveCount; ++i) {
+      input.velocity_mps[i] = factor * velocity_mps[i];
+    }
+  };
+  scale_to(motion.cap.factor, motion.wanted_mps);
+  Followed followed{steady_lambda(machine.valve, input, control.lambda_policy, control.lambda_rise,
+                                  last.flow.lambda.value(), period_s)};
+  followed.lambda = followed.solution.point.lambda;
+  const double of_path = followed.lambda;
+  if (!machine.profile.bus.pressures) {
+    // How fast, the worst load says; how far a spool opens for it, the likely one.
+    input = mcv_input(span_of(motion.wanted_mps), estimates.load, valid.pump_flow_m3ps);
+  }
+  followed.eases = motion.eases;
+  if (of_path > 0.0 || motion.eases) {
+    const McvSolution of_wanted = followed.solution;
+    const Limit path_limit = of_wanted.limit;
+    input = opened_for(estimates.held, machine.drives, input);
+    scale_to((motion.eases ? 1.0 : of_path) * motion.cap.factor, motion.corrected_mps);
+    const double most =
+        std::min(last.flow.of_corrected + control.lambda_rise.rate_ps * period_s, 1.0);
+    followed.solution = solve_mcv(machine.valve, input, control.lambda_policy, {most});
+    followed.of_corrected = followed.solution.point.lambda;
+    if (motion.task.moves && !motion.eases && followed.of_corrected < kHeldUp) {
+      followed.solution = of_wanted;
+      followed.of_corrected = 1.0;
+      followed.as_wanted = true;
+    } else if (followed.of_corrected >= 1.0) {
+      followed.solution.limit = path_limit;
+    }
+  }
+  return followed;
+}
+
+}  // namespace graben

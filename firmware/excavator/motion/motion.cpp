@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/excavator/motion/motion.hpp"
+
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
+#include "firmware/excavator/motion/on_oil.hpp"
+#include "firmware/excavator/swing.hpp"
+
+namespace graben {
+namespace {
+
+/// Of the swing's correction, while it is to stand.
+constexpr double kStandsShare = 0.5;
+
+/// Of the path's speed, where a load has held a drive of late.
+constexpr double kWary = 0.5;
+
+double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
+  const Eigen::Vector2d at(tip.x_m, tip.y_m);
+  return (path.closest(at).position_m - at).norm();
+}
+
+HandAsk hand_ask(const ExcavatorValid& valid) {
+  return {valid.task, valid.lever_ratio, valid.speed_override_ratio};
+}
+
+/// The program that is being followed and goes on to be asked for; null without one.
+const TaskProgram* running(const TaskBook& book, const ExcavatorValid& valid,
+                           const TaskMemory& task) {
+  // A place that is not what was stored must not be looked up: it need not be in the program.
+  const bool goes_on =
+      task.runs && task.intact() && valid.task == Task::kProgram && task.number < book.count;
+  return goes_on ? &book.program[task.number] : nullptr;
+}
+
+/// All that one cycle's motion is made of.
+struct Known {
+  const ExcavatorModel& machine;
+  const MotionSources& sources;
+  const ExcavatorValid& valid;
+  const InputState& inputs;
+  const EstimationState& estimates;
+  double period_s;
+  const LastCycle& last;
+};
+
+/// What the field wants of each cylinder at the place where its command of now takes effect.
+DriveVector by_field(const Known& of) {
+  const KinematicState& now = of.estimates.pose;
+  DriveVector wanted_mps = DriveVector::Zero();
+  DriveVector asked_m = DriveVector::Zero();
+  Eigen::Vector3d field_mps = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    // Where the cylinders will be when a command of now to this one takes effect.
+    const DriveVector when_m =
+        strokes_when_m(of.machine.drives, of.estimates.servo, of.last.expected_mps, axis);
+    if (axis == 0 || when_m != asked_m) {
+      const KinematicState then = of.machine.kinematics.planar().state(when_m.head<kAxisCount>());
+      field_mps = of.sources.field.wanted(then.status == ReachStatus::kOk ? then : now,
+                                          of.valid.speed_override_ratio);
+      asked_m = when_m;
+    }
+    wanted_mps[axis] = field_mps[axis];
+  }
+  return wanted_mps;
+}
+
+void dig(const Known& of, Motion& motion) {
+  const ExcavatorValid& valid = of.valid;
+  const KinematicState& now = of.estimates.pose;
+  if (valid.task == Task::kDig && now.status == ReachStatus::kOk) {
+    motion.wanted_mps = by_field(of);
+  }
+  if (any_wary(of.inputs.watch.drives.blocked)) {
+    motion.wanted_mps *= kWary;
+  }
+  const double lambda = of.last.flow.lambda.value();
+  motion.corrected_mps = corrected_velocity(of.machine.drives, motion.wanted_mps,
+                                            of.estimates.servo, lambda, valid.speed_override_ratio);
+  correct_off_path(of.machine, of.sources, of.estimates, lambda, valid.speed_override_ratio,
+                   motion);
+  motion.path_error_m = path_error_m(of.sources.field.path(), now.tip);
+  // A task that looks for its way is on no path.
+  motion.off_m = valid.task == Task::kDig ? motion.path_error_m : 0.0;
+}
+
+void follow(const Known& of, const TaskProgram& program, const MotionMemory& state,
+            Motion& motion) {
+  const ExcavatorProfile& profile = of.machine.profile;
+  const double lambda = of.last.flow.lambda.value();
+  const double speed_override_ratio = of.valid.speed_override_ratio;
+  motion.task = want_of_task(profile, of.machine.drives, of.machine.kinematics, program, state.task,
+                             state.aim, of.estimates.servo, speed_override_ratio);
+  motion.wanted_mps = motion.task.wanted_mps;
+  motion.corrected_mps =
+      corrected_velocity(of.machine.drives, motion.wanted_mps, of.estimates.servo, lambda,
+                         speed_override_ratio, motion.task.holds);
+  correct_off_plan(of.machine, of.sources, of.estimates, lambda, speed_override_ratio, motion);
+  const double swing_mps = swing_of(motion.wanted_mps);
+  if (swing_mps == 0.0) {
+    // A platform that is to stand rings less on weaker corrections.
+    motion.corrected_mps =
+        with_swing(motion.corrected_mps, kStandsShare * swing_of(motion.corrected_mps));
+  }
+  motion.corrected_mps =
+      with_swing(motion.corrected_mps,
+                 swing_of(motion.corrected_mps) +
+                     swing_lead_mps(profile, swing_mps, of.last.swing_wanted_mps, of.period_s) +
+                     swing_damping_mps(profile, of.estimates.swing_push));
+  motion.fences = &program.fences;
+  motion.path_error_m = motion.task.path_error_m;
+  motion.off_m = motion.task.off_m;
+}
+
+/// By the levers.
+void steer(const Known& of, const HandState& hand, Motion& motion) {
+  const ExcavatorValid& valid = of.valid;
+  const DriveRows& drives = of.machine.drives;
+  const bool jogs = valid.task == Task::kJog;
+  motion.hand =
+      want_by_hand(of.machine.profile, drives, of.machine.kinematics.planar(), of.estimates.pose,
+                   of.estimates.servo, hand_ask(valid), hand, of.period_s);
+  motion.wanted_mps = motion.hand.wanted_mps;
+  motion.task.pace_ratio = jogs ? 1.0 : hand.pace_ratio;
+  motion.corrected_mps =
+      corrected_velocity(drives, motion.wanted_mps, of.estimates.servo, of.last.flow.lambda.value(),
+                         valid.speed_override_ratio, !jogs && motion.hand.moves);
+  for (int i = 0; jogs && i < kDriveCount; ++i) {
+    motion.corrected_mps[i] = motion.wanted_mps[i] == 0.0 ? 0.0 : motion.corrected_mps[i];
+  }
+  // Fences are those of the task that is chosen, or of the first.
+  const TaskBook& book = of.sources.book;
+  const bool chosen = valid.task_number >= 0 && valid.task_number < book.count;
+  motion.fences = &book.program[chosen ? static_cast<unsigned>(valid.task_number) : 0U].fences;
+  motion.path_error_m = motion.hand.error_m;
+  motion.off_m = motion.hand.error_m;
+}
+
+/// Not inlined: what it makes would lie on the stack below the next search for a way.
+[[gnu::noinline]] void stop_task(TaskMemory& task) { task = stopped(task); }
+
+}  // namespace
+
+MotionUnderWay motion_under_way(const ExcavatorModel& machine, const TaskBook& book,
+                                const ExcavatorValid& valid, MotionMemory& state) {
+  const TaskProgram* program = running(book, valid, state.task);
+  state.aim =
+      program != nullptr ? task_aim(machine.kinematics, *program, state.task.state) : TaskAim{};
+  const HandState& hand = state.hand;
+  MotionUnderWay motion;
+  motion.kind = state.aim.kind;
+  motion.share = state.aim.share;
+  motion.on_plan = state.aim.kind != StepKind::kNone || hand.plans;
+  motion.new_plan = hand.plans ? hand.is_new : state.task.state.time_s == 0.0;
+  motion.planned_m = hand.plans ? hand.planned_m : travel_of(machine.profile, state.aim.value);
+  motion.for_oil =
+      valid.task == Task::kDig || (program != nullptr && cuts(*program, state.task.state));
+  return motion;
+}
+
+Motion wanted_motion(const ExcavatorModel& machine, const MotionSources& sources,
+                     const ExcavatorValid& valid, const InputState& inputs,
+                     const EstimationState& estimates, double period_s, const LastCycle& last,
+                     const MotionMemory& state) {
+  const Known known = {machine, sources, valid, inputs, estimates, period_s, last};
+  Motion motion;
+  if (const TaskProgram* program = running(sources.book, valid, state.task)) {
+    follow(known, *program, state, motion);
+  } else if (is_by_lever(valid.task)) {
+    steer(known, state.hand, motion);
+  } else {
+    dig(known, motion);
+  }
+  motion.tries = valid.task == Task::kCommission;
+  const bool reached = estimates.pose.status == ReachStatus::kOk && motion.task.known;
+  motion.fault = reached ? Fault::kNone : Fault::kPoseUnreachable;
+  if (reached && state.task.search.failed) {
+    motion.fault = Fault::kNoWay;
+  }
+  return motion;
+}
+
+void go_on(const ExcavatorModel& machine, const TaskBook& book, const ExcavatorValid& valid,
+           const Motion& motion, const MotionFollowed& followed, const TipLoad& load,
+           double period_s, MotionMemory& state) {
+  const bool by_lever = followed.active && is_by_lever(valid.task);
+  state.hand = by_lever ? next_by_hand(machine.profile.line, motion.hand, hand_ask(valid),
+                                       state.hand, followed.share, period_s)
+                        : HandState{};
+  if (!followed.active || valid.task != Task::kProgram) {
+    stop_task(state.task);
+    return;
+  }
+  const auto number = static_cast<std::uint8_t>(valid.task_number);
+  next_task(machine.profile, machine.kinematics, book.program[number], number, valid.strokes_m(),
+            followed.share * valid.speed_override_ratio,
+            {motion.task.teeth, motion.task.behind_m, followed.share, load.known, load.force_n,
+             load.payload_known, load.payload_kg},
+            period_s, state.task);
+}
+
+}  // namespace graben

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Fifth stage of a cycle: from what may be followed to what the valve and the pumps are sent.
+
+#include "firmware/drives/drive_gate.hpp"
+#include "firmware/drives/spool_lead.hpp"
+#include "firmware/excavator/limits/limits.hpp"
+#include "firmware/excavator/outputs/pump_demand.hpp"
+
+namespace graben {
+
+/// State from cycle to cycle.
+struct OutputState {
+  std::array<Guarded<double>, kDriveCount> opening;
+  std::array<SpoolModel, kDriveCount> spool;
+  PumpDemand pumps;
+};
+
+/// Duties without what leads the spools through their lag: where the watches look for them. And
+/// what was added to lead them.
+struct SentDuties {
+  std::array<double, kDriveCount> duty_ratio{};
+  std::array<double, kDriveCount> lead_ratio{};
+};
+
+/// Enable, duties and swash of this cycle. A refusal of the gate stops: it changes `decision`.
+[[nodiscard]] SentDuties put_out(const ExcavatorModel& machine, const ExcavatorValid& valid,
+                                 const InputState& inputs, const EstimationState& estimates,
+                                 const Motion& motion, const LimitState& limits,
+                                 const Followed& followed, double period_s, const LastCycle& last,
+                                 ModeDecision& decision, OutputState& state,
+                                 ExcavatorOutputs& outputs);
+
+}  // namespace graben

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/excavator/status/status.hpp"
+
+#include <algorithm>
+
+#include "firmware/excavator/inputs/tried_duties.hpp"
+#include "firmware/excavator/swing.hpp"
+
+namespace graben {
+namespace {
+
+/// A plan that is followed at less than this share of its pace waits.
+constexpr double kWaits = 0.5;
+
+/// It is laid around a path or a plan.
+bool has_tube(Task task) {
+  return task == Task::kDig || task == Task::kProgram || task == Task::kCoordinated;
+}
+
+}  // namespace
+
+void tell_seen(const ExcavatorModel& machine, const InputState& inputs,
+               const EstimationState& estimates, ExcavatorStatus& status) {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const auto k = static_cast<unsigned>(axis);
+    const DriveRow& drive = machine.drives[axis];
+    const LearntValve& valve = inputs.watch.drives.learnt[k];
+    status.edges[k] = {{is_edge_known(valve.extend), learnt_edge_ratio(drive, valve, true)},
+                       {is_edge_known(valve.retract), learnt_edge_ratio(drive, valve, false)}};
+  }
+  status.tip_load = estimates.load_observer.told;
+  status.joints = inputs.joints;
+}
+
+void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const Motion& motion,
+                 const Followed& followed, const FaultSet& degraded, ExcavatorStatus& status) {
+  const McvSolution& solution = followed.solution;
+  const bool waits = motion.task.pace_ratio < kWaits;
+  const bool rises =
+      !motion.tries && solution.status == SolveStatus::kOk && followed.of_way() < 1.0;
+  status.lambda =
+      motion.tries ? 1.0 : motion.cap.factor * motion.hand.cap.factor * followed.of_way();
+  status.limit =
+      held_by({blocked_limit(inputs.watch.drives.blocked),
+               solution.limit,
+               motion.tries ? tried_limit(machine.drives, inputs.commission) : motion.cap.limit,
+               {waits ? LimitKind::kOffPath : LimitKind::kNone, 0},
+               {rises ? LimitKind::kRise : LimitKind::kNone, 0},
+               degraded_limit(degraded)});
+  status.path_error_m = motion.path_error_m;
+  std::copy_n(motion.wanted_mps.data(), kDriveCount, status.wanted_velocity_mps.begin());
+  status.swing_wanted_radps = swing_of(drives_of(machine.profile, motion.wanted_mps));
+  status.progress = motion.task.progress;
+  std::copy_n(solution.point.pump_pressure_pa.begin(), kPumpCount, status.pump_pressure_pa.begin());
+}
+
+void remember(const ExcavatorModel& machine, const ExcavatorValid& valid, const InputState& inputs,
+              const Motion& motion, const Followed& followed, const ModeDecision& decision,
+              const OutputState& output, const SentDuties& sent, bool enable, double period_s,
+              LastCycle& last) {
+  const McvPoint& point = followed.solution.point;
+  const bool active = decision.active();
+  const double of_way = active ? followed.of_way() : 0.0;
+  const double asked = active ? followed.all() : 0.0;
+  const DriveVector asked_mps =
+      asked * motion.cap.factor * (followed.as_wanted ? motion.wanted_mps : motion.corrected_mps);
+  last.commands = {
+      in_motion(decision.mode.mode), enable,          sent.duty_ratio,       {}, {}, {},
+      last.commands.line_pa,         sent.lead_ratio, active && motion.tries};
+  std::copy_n(asked_mps.data(), kDriveCount, last.commands.asked_mps.begin());
+  for (int i = 0; i < machine.drives.count(); ++i) {
+    const auto k = static_cast<unsigned>(i);
+    last.commands.towards_mps[k] = motion.towards_mps[i];
+    last.commands.opening[k] = output.opening[k].value();
+    if (point.lambda > 0.0) {
+      last.commands.line_pa[k] =
+          point.pump_pressure_pa[static_cast<unsigned>(machine.valve.actuator[k].pump)];
+    }
+  }
+  last.swash_ratio = output.pumps.swash_ratio;
+  last.flow.lambda = active ? followed.lambda : 0.0;
+  last.flow.of_corrected = active ? followed.of_corrected : 1.0;
+  last.flow.line_pa = point.pump_pressure_pa;
+  last.flow.yield_mpsn = {point.yield_mpsn[kBoom], point.yield_mpsn[kArm]};
+  last.expected_mps = of_way * motion.cap.factor * motion.wanted_mps;
+  last.swing_wanted_mps = swing_of(motion.task.wanted_mps);
+  const bool by_lever = active && is_by_lever(valid.task);
+  last.jogs = by_lever && valid.task == Task::kJog;
+  const SafetyProfile& safety = machine.profile.safety;
+  next_tube(active && has_tube(valid.task), motion.off_m, safety.tube_m, last.tube);
+  // A plan that waits for its drives asks for motion though it wants none now.
+  const bool plans = motion.task.holds && !motion.task.bides && valid.speed_override_ratio > 0.0;
+  const bool blocked = any_blocked(inputs.watch.drives.blocked);
+  // A lever that is held against an end or a fence is no stall.
+  const double allowed = by_lever ? 1.0 : motion.cap.factor;
+  next_stall(active, plans || !motion.wanted_mps.isZero(),
+             blocked || motion.task.astray ? 0.0 : of_way * allowed * motion.task.pace_ratio,
+             safety.stall_s, period_s, last.stall);
+}
+
+}  // namespace graben
