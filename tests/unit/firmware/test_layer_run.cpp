@@ -221,15 +221,23 @@ TEST(lifts_out_before_it_swings) {
   assert_true(swing_of(task_aim(machine().kinematics, program, state).value) > 0.5);
 }
 
-/// What was dug is known when the task goes on, and forgotten when it has come to its end.
+/// What was dug is known when the task goes on, however long it has rested, and forgotten when it
+/// has come to its end.
 TEST(goes_on_where_it_was) {
   const TaskProgram program = planned();
-  const TaskState state = lifted(program);
-  const TaskMemory rests = stopped(remembered(0, state));
-  assert_false(rests.runs);
-  assert_true(rests.intact());
-  assert_true(rests.state.layers.begun);
-  assert_true(rests.state.layers.cuts.height_m == state.layers.cuts.height_m);
+  TaskState state = lifted(program);
+  state.layers.touched = true;
+  state.layers.zero_m = 0.02;
+  TaskMemory rests = remembered(0, state);
+  repeat(100, [&] {
+    rests = stopped(rests);
+    assert_false(rests.runs);
+    assert_true(rests.intact());
+    assert_true(rests.state.layers.begun);
+    assert_true(rests.state.layers.cuts.height_m == state.layers.cuts.height_m);
+    assert_true(rests.state.layers.touched);
+    assert_near(rests.state.layers.zero_m, 0.02, 0.0);
+  });
   TaskState done = state;
   done.phase = TaskPhase::kDone;
   assert_false(stopped(remembered(0, done)).state.layers.begun);

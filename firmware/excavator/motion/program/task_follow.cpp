@@ -178,7 +178,7 @@ TaskMemory stopped(const TaskMemory& last) {
     memory.runs = false;
     memory.search = {};
     memory.state.word = true;
-  } else if (last.state.phase != TaskPhase::kDone) {
+  } else if (!last.runs || last.state.phase != TaskPhase::kDone) {
     memory.number = last.number;
     memory.state.layers.begun = last.state.layers.begun;
     memory.state.layers.cuts = last.state.layers.cuts;
