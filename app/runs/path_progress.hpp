@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "firmware/core/time.hpp"
-#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 
 namespace graben::runs {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "tests/faults/row.hpp"
 #include "tests/faults/trial.hpp"
 

@@ -15,8 +15,8 @@
 #include "app/machines/imu_section.hpp"
 #include "app/machines/simulated/soil_kinds.hpp"
 #include "app/plant/random.hpp"
-#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 
 namespace graben::machines {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "app/reports/check/machine_check.hpp"
 #include "firmware/dozer/blade.hpp"
-#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::reports {

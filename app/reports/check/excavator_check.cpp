@@ -6,8 +6,8 @@
 #include "app/machines/axis_names.hpp"
 #include "app/plant/linkage_geometry.hpp"
 #include "app/reports/check/warnings.hpp"
-#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
+#include "firmware/excavator/motion/field/rounded_rectangle.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::reports {

@@ -1,11 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/excavator/inputs/inputs.hpp"
 
-#include "firmware/excavator/inputs/strokes.hpp"
+#include <array>
+#include <cmath>
+
+#include "firmware/excavator/inputs/measured_joints.hpp"
 #include "firmware/excavator/inputs/tried_duties.hpp"
 
 namespace graben {
 namespace {
+
+/// No spool is open, as far as anybody knows: by where the spools are, or, where nobody says that,
+/// by our own commands. What then moves a link moves it slowly.
+bool is_still(const ExcavatorProfile& profile, const ExcavatorInputs& inputs, EcuMode last_mode) {
+  if (!profile.bus.spool_feedback) {
+    return last_mode != EcuMode::kActive;
+  }
+  bool still = true;
+  for (const AxisInputs& axis : inputs.axis) {
+    still = still && axis.spool_ratio.validity == Validity::kValid &&
+            std::abs(axis.spool_ratio.value) <= profile.safety.spool_tolerance;
+  }
+  return still;
+}
+
+std::array<Signal<double>, kAxisCount> strokes_by_angles(const ExcavatorModel& machine,
+                                                         const ExcavatorInputs& inputs,
+                                                         InputState& state) {
+  std::array<Signal<double>, kAxisCount> joint_rad = inputs.joint_rad;
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    joint_rad[axis] =
+        foretold(inputs.joint_rad[axis], machine.profile.bus.joint_latency_s, state.foretold[axis]);
+  }
+  const std::array<Signal<double>, kAxisCount> strokes_m =
+      strokes_of_joints(machine.kinematics.planar(), joint_rad);
+  state.joints = {};
+  state.joints.known = true;
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    state.joints.known = state.joints.known && strokes_m[axis].validity == Validity::kValid;
+    state.joints.joint[axis].angle_rad = joint_rad[axis].value;
+    state.joints.stroke_m[axis] = strokes_m[axis].value;
+  }
+  return strokes_m;
+}
+
+std::array<Signal<double>, kAxisCount> strokes_by_imus(const ExcavatorModel& machine,
+                                                       const ExcavatorInputs& inputs,
+                                                       const Cycle& cycle, InputState& state) {
+  const ImuStrokes by_imus = next_imu_strokes(
+      machine.kinematics.planar(), machine.profile.imu, inputs,
+      is_still(machine.profile, inputs, cycle.last_mode), cycle.period_s, state.imus);
+  state.joints = by_imus.joints;
+  return by_imus.stroke_m;
+}
+
+/// Inputs that may be used, the strokes by whatever the machine measures: encoders, angles of the
+/// joints, or IMUs on the links.
+ExcavatorValid validated_strokes(const ExcavatorModel& machine, const ExcavatorInputs& inputs,
+                                 const Cycle& cycle, TimeUs now_us, bool moving,
+                                 InputState& state) {
+  const ExcavatorProfile& profile = machine.profile;
+  if (profile.imu.known()) {
+    return validate(profile, machine.drives, inputs, moving, now_us, state.accepted,
+                    strokes_by_imus(machine, inputs, cycle, state));
+  }
+  if (profile.bus.joint_angles) {
+    return validate(profile, machine.drives, inputs, moving, now_us, state.accepted,
+                    strokes_by_angles(machine, inputs, state));
+  }
+  return validate(profile, machine.drives, inputs, moving, now_us, state.accepted);
+}
 
 /// kTaskUnknown unless the task that the operator asks for is there.
 FaultSet task_faults(const ExcavatorValid& valid, int program_count) {

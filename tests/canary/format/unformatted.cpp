@@ -1,2 +1,1 @@
-int  twice( int x ){
-return 2*x; }
+int twice(int x) { return 2 * x; }

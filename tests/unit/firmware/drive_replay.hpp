@@ -9,9 +9,9 @@
 
 #include "app/plant/random.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
-#include "firmware/excavator/swing.hpp"
-#include "firmware/excavator/motion/program/drive_plan.hpp"
 #include "firmware/excavator/limits/motion_cap.hpp"
+#include "firmware/excavator/motion/program/drive_plan.hpp"
+#include "firmware/excavator/swing.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
 namespace graben::test {

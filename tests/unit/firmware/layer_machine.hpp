@@ -2,9 +2,9 @@
 #pragma once
 /// A 12 t machine that digs in layers, its teeth where they are to be but for what a test says.
 
-#include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/motion/dig/layer_run.hpp"
 #include "firmware/excavator/motion/program/task_follow.hpp"
+#include "firmware/excavator/swing.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// How fast cuts go on, and what follows on them.
 
-#include "firmware/excavator/motion/dig/layer_pace.hpp"
+#include "firmware/excavator/motion/dig/layer_run.hpp"
 
 #include "tests/unit/firmware/layer_machine.hpp"
 

@@ -8,9 +8,9 @@
 /// they tell the force on the teeth: three balances for two components, by least squares over all
 /// that is not known of the terms.
 
-#include "firmware/excavator/excavator_signals.hpp"
 #include "firmware/excavator/estimation/load/load_balance.hpp"
 #include "firmware/excavator/estimation/load/load_phase.hpp"
+#include "firmware/excavator/excavator_signals.hpp"
 
 namespace graben {
 

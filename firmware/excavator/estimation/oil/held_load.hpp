@@ -10,8 +10,8 @@
 /// oil makes it ring. So it is opened for what is left at rest, the observer's load, and for the
 /// push that the path asks for.
 
-#include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/estimation/oil/oil_law.hpp"
+#include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/mcv/evaluation.hpp"
 
 namespace graben {

@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/estimation/oil/oil_gains.hpp"
 #include "firmware/excavator/estimation/oil/oil_modes.hpp"
+#include "firmware/excavator/excavator_drives.hpp"
 
 namespace graben {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/motion/dig/layer_enter.hpp"
+#include "firmware/excavator/motion/dig/layer_height.hpp"
 
 #include <algorithm>
 #include <cmath>

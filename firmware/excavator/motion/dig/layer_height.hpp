@@ -30,4 +30,10 @@ inline constexpr double kHeightChange_mps2 = 1.0;
 /// stays as high as it is.
 void rise(const LayerCycle& cycle, double target_m, double most_down_mps, TaskState& state);
 
+/// How the edge comes down to a cut: quickly through the air, into the ground as hard as it may,
+/// and then its oil lets off: pressed oil would throw it down as soon as it goes along and the
+/// ground bears it no more. A cycle on. Begins the cut where it is down, or can't be pressed down
+/// further: the rest it comes down on the way.
+void enter_on(const LayerCycle& cycle, const CutSeen& seen, TaskState& state);
+
 }  // namespace graben

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/motion/dig/cut_force.hpp"
-#include "firmware/excavator/motion/dig/layer_enter.hpp"
 #include "firmware/excavator/motion/dig/layer_height.hpp"
-#include "firmware/excavator/motion/dig/layer_pace.hpp"
 #include "firmware/excavator/motion/dig/layer_tare.hpp"
 #include "firmware/excavator/motion/dig/layer_touch.hpp"
+#include "firmware/excavator/swing.hpp"
 
 namespace graben {
 namespace {

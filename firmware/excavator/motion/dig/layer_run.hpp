@@ -23,4 +23,9 @@ void layer_advance(const ExcavatorProfile& profile, const SwingKinematics& kinem
                    const TaskProgram& program, double advance_s, double period_s,
                    const CutSeen& seen, TaskState& state);
 
+/// How fast a plan in layers goes on while the teeth are behind it: `state.pace_ratio` a cycle on.
+/// The sooner the nearer they are to the design: half at one slow_error, a fifth at two.
+void follow_pace(const LineProfile& line, const TaskProgram& program, const CutSeen& seen,
+                 double period_s, TaskState& state);
+
 }  // namespace graben

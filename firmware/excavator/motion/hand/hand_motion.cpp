@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/motion/program/drive_plan.hpp"
+#include "firmware/excavator/swing.hpp"
 
 namespace graben {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/swing.hpp"
 #include "firmware/excavator/motion/dig/layer_plan.hpp"
 #include "firmware/excavator/motion/dig/layer_run.hpp"
 #include "firmware/excavator/motion/dig/step_round.hpp"
+#include "firmware/excavator/swing.hpp"
 
 namespace graben {
 namespace {
