@@ -12,6 +12,15 @@ def replaced(text, old, new):
     return text.replace(old, new, 1)
 
 
+def changed(text, change):
+    """By pairs of old and new text, or by a function of the whole."""
+    if callable(change):
+        return change(text)
+    for old, new in change.items():
+        text = replaced(text, old, new)
+    return text
+
+
 def leaves(value, path=()):
     """Every key below which there is no further one: ('pump', 0, 'speed')."""
     if isinstance(value, dict):
