@@ -62,6 +62,24 @@ Eigen::Vector3d start_of(const machines::SimulatedExcavator& machine, std::uint6
   }
 }
 
+machines::Scenario of_errors(std::uint64_t seed, machines::Errors errors) {
+  machines::Scenario scenario;
+  scenario.seed = seed;
+  scenario.errors = errors;
+  return scenario;
+}
+
+machines::Errors sensors_or_kim(bool sensors) {
+  return sensors ? machines::Errors::kSensors : machines::Errors::kKim;
+}
+
+/// The shipped machine, arranged so, at a random pose.
+Excavator::Scenery near_the_path(const machines::Scenario& scenario) {
+  Excavator::Scenery scenery{machines::arranged(shipped(), scenario)};
+  scenery.start_strokes_m = start_of(scenery.machine, scenario.seed);
+  return scenery;
+}
+
 template <class Pressure>
 Sensor pressure(const dbc::Field& cap, const dbc::Field& rod) {
   return {Pressure::kId, {cap, rod}, Fault::kPressureMissing};
@@ -70,48 +88,30 @@ Sensor pressure(const dbc::Field& cap, const dbc::Field& rod) {
 }  // namespace
 
 Excavator::Scenery Excavator::scenery_of(std::uint64_t seed) {
-  machines::Scenario scenario;
-  scenario.seed = seed;
+  machines::Scenario scenario = of_errors(seed, sensors_or_kim(seed % 2 == 0));
   scenario.soil = seed % 4 < 2;
-  scenario.errors = seed % 2 == 0 ? machines::Errors::kSensors : machines::Errors::kKim;
-  Scenery scenery;
-  scenery.machine = machines::arranged(shipped(), scenario);
-  scenery.start_strokes_m = start_of(scenery.machine, seed);
-  return scenery;
+  return near_the_path(scenario);
 }
 
 Excavator::Scenery Excavator::stall_scenery_of(std::uint64_t seed) {
-  machines::Scenario scenario;
-  scenario.seed = seed;
+  machines::Scenario scenario = of_errors(seed, sensors_or_kim(seed % 2 == 0));
   scenario.obstacle = true;
-  scenario.errors = seed % 2 == 0 ? machines::Errors::kSensors : machines::Errors::kKim;
-  Scenery scenery;
-  scenery.machine = machines::arranged(shipped(), scenario);
+  Scenery scenery{machines::arranged(shipped(), scenario)};
   scenery.machine.plant.obstacle->hold_s = 1e4;
   scenery.start_strokes_m = machines::dig_start(scenery.machine.profile);
   return scenery;
 }
 
 Excavator::Scenery Excavator::imu_scenery_of(std::uint64_t seed) {
-  machines::Scenario scenario;
-  scenario.seed = seed;
+  machines::Scenario scenario = of_errors(seed, machines::Errors::kAll);
   scenario.imus = true;
-  scenario.errors = machines::Errors::kAll;
-  Scenery scenery;
-  scenery.machine = machines::arranged(shipped(), scenario);
-  scenery.start_strokes_m = start_of(scenery.machine, seed);
-  return scenery;
+  return near_the_path(scenario);
 }
 
 Excavator::Scenery Excavator::sold_scenery_of(std::uint64_t seed, const char* bus) {
-  machines::Scenario scenario;
-  scenario.seed = seed;
+  machines::Scenario scenario = of_errors(seed, machines::Errors::kAll);
   scenario.bus = bus;
-  scenario.errors = machines::Errors::kAll;
-  Scenery scenery;
-  scenery.machine = machines::arranged(shipped(), scenario);
-  scenery.start_strokes_m = start_of(scenery.machine, seed);
-  return scenery;
+  return near_the_path(scenario);
 }
 
 namespace {
@@ -132,14 +132,9 @@ const TaskProgram& line_with_swing() {
 }  // namespace
 
 Excavator::Scenery Excavator::swinging_scenery_of(std::uint64_t seed) {
-  machines::Scenario scenario;
-  scenario.seed = seed;
-  scenario.errors = seed % 4 < 2 ? machines::Errors::kSensors : machines::Errors::kKim;
-  Scenery scenery;
-  scenery.machine = machines::arranged(swinging(), scenario);
-  scenery.start_strokes_m = line_with_swing().start.head<kAxisCount>();
-  scenery.start_swing_rad = line_with_swing().start[kSwing];
-  return scenery;
+  const machines::Scenario scenario = of_errors(seed, sensors_or_kim(seed % 4 < 2));
+  return {machines::arranged(swinging(), scenario), line_with_swing().start.head<kAxisCount>(),
+          line_with_swing().start[kSwing]};
 }
 
 ExcavatorSetup Excavator::setup_of(const Machine& machine) {

@@ -73,11 +73,17 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 bool has(const std::string& text, const std::string& what) { return count(text, what) > 0; }
 
+/// The shipped machine, what was found of it, and the text that says so.
+struct Found {
+  std::string old_text = shipped_text();
+  machines::ExcavatorMachine old = load(old_text);
+  JudgedFit fit = fit_of(old.profile);
+  std::string text = identified_text(old_text, old, fit, kFrom);
+  machines::ExcavatorMachine read = load(text);
+};
+
 TEST(what_is_written_reads_back) {
-  const std::string old_text = shipped_text();
-  const machines::ExcavatorMachine old = load(old_text);
-  const JudgedFit fit = fit_of(old.profile);
-  const machines::ExcavatorMachine read = load(identified_text(old_text, old, fit, kFrom));
+  const auto [old_text, old, fit, text, read] = Found();
   assert_string_equal(first_difference(read.profile, fit.profile).c_str(), "");
   assert_true(!first_difference(old.profile, fit.profile).empty());
   assert_near(read.profile.valve.answer[kBoom].extend.dead_time_s, 0.123457, 1e-9);
@@ -98,16 +104,14 @@ TEST(what_is_written_reads_back) {
 }
 
 TEST(where_it_is_from_is_told) {
-  const std::string old_text = shipped_text();
-  const machines::ExcavatorMachine old = load(old_text);
-  const std::string text = identified_text(old_text, old, fit_of(old.profile), kFrom);
-  assert_true(has(text, "# identified: 119e-6 before; deviation 1.2e-06; drive.log sha256"));
-  const machines::ExcavatorMachine read = load(text);
+  const Found found;
+  const std::vector<machines::Provenance>& provenance = found.read.provenance;
+  assert_true(has(found.text, "# identified: 119e-6 before; deviation 1.2e-06; drive.log sha256"));
   const auto entry = [&](const std::string& key) {
-    const auto found = std::find_if(read.provenance.begin(), read.provenance.end(),
-                                    [&](const machines::Provenance& of) { return of.key == key; });
-    assert_true(found != read.provenance.end());
-    return *found;
+    const auto at = std::find_if(provenance.begin(), provenance.end(),
+                                 [&](const machines::Provenance& of) { return of.key == key; });
+    assert_true(at != provenance.end());
+    return *at;
   };
   assert_near(entry("valve.answer.boom.extend.dead_time").deviation.value_or(-1.0), 0.004, 1e-12);
   assert_near(entry("sensors.cap_zero").deviation.value_or(-1.0), 0.1e6, 1e-6);
@@ -115,11 +119,9 @@ TEST(where_it_is_from_is_told) {
 }
 
 TEST(all_else_stays_as_it_was_written) {
-  const std::string old_text = shipped_text();
-  const machines::ExcavatorMachine old = load(old_text);
-  const std::vector<std::string> before = lines_of(old_text);
-  const std::vector<std::string> after =
-      lines_of(identified_text(old_text, old, fit_of(old.profile), kFrom));
+  const Found written;
+  const std::vector<std::string> before = lines_of(written.old_text);
+  const std::vector<std::string> after = lines_of(written.text);
   std::size_t at = 0;
   std::size_t changed = 0;
   for (const std::string& line : before) {
@@ -133,42 +135,37 @@ TEST(all_else_stays_as_it_was_written) {
 }
 
 TEST(a_second_time_replaces_the_first) {
-  const std::string old_text = shipped_text();
-  const machines::ExcavatorMachine old = load(old_text);
-  const std::string once = identified_text(old_text, old, fit_of(old.profile), kFrom);
-  const machines::ExcavatorMachine first = load(once);
-  const JudgedFit again = fit_of(first.profile);
-  const std::string twice = identified_text(once, first, again, "later.log");
+  const Found once;
+  const JudgedFit again = fit_of(once.read.profile);
+  const std::string twice = identified_text(once.text, once.read, again, "later.log");
   assert_string_equal(first_difference(load(twice).profile, again.profile).c_str(), "");
-  assert_true(count(twice, "# identified:") <= count(once, "# identified:"));
+  assert_true(count(twice, "# identified:") <= count(once.text, "# identified:"));
   assert_int_equal(count(twice, "[provenance]"), 1);
   assert_true(has(twice, "later.log"));
 }
 
-std::string set(const std::string& text, const std::string& section, const std::string& key,
-                const std::string& value) {
-  ProfileText profile(text);
-  profile.set(section, key, value, "why");
-  return profile.text();
-}
-
 TEST(values_are_found_however_they_are_written) {
-  assert_string_equal(set("[a]\nx = 1 # kept\ny = 2\n", "a", "x", "7").c_str(),
-                      "[a]\n# identified: 1 before; why\nx = 7 # kept\ny = 2\n");
-  assert_string_equal(set("[a]\nx = 1\n\n[b]\ny = 2\n", "a", "z", "7").c_str(),
-                      "[a]\n# identified: why\nz = 7\nx = 1\n\n[b]\ny = 2\n");
-  assert_string_equal(set("a = { x = 1 } # é\n", "a", "z", "7").c_str(),
-                      "a = { x = 1 , z = 7 } # é\n");
-  assert_string_equal(set("t = \"é\"\na = { s = \"éé\", x = [1, 2] }", "a", "x", "7").c_str(),
-                      "t = \"é\"\n# identified: [1, 2] before; why\na = { s = \"éé\", x = 7 }");
-  assert_string_equal(set("[a]\nb.x = 1", "a.b", "z", "7").c_str(),
-                      "[a]\n# identified: why\nb.z = 7\nb.x = 1");
-  assert_string_equal(set("[[p]]\nx = 1\n[[p]]\nx = 2", "p[1]", "x", "7").c_str(),
-                      "[[p]]\nx = 1\n[[p]]\n# identified: 2 before; why\nx = 7");
-  assert_string_equal(set("x = 1", "a.b", "c.d", "7").c_str(),
-                      "x = 1\n\n[a.b]\n# identified: why\n\"c.d\" = 7\n");
-  assert_string_equal(set("[a]\nx = [\n  1, # one\n  2,\n]\n", "a", "x", "7").c_str(),
-                      "[a]\n# identified: why\nx = 7\n");
+  const struct {
+    const char *before, *section, *key, *after;
+  } rows[] = {
+      {"[a]\nx = 1 # kept\ny = 2\n", "a", "x",
+       "[a]\n# identified: 1 before; why\nx = 7 # kept\ny = 2\n"},
+      {"[a]\nx = 1\n\n[b]\ny = 2\n", "a", "z",
+       "[a]\n# identified: why\nz = 7\nx = 1\n\n[b]\ny = 2\n"},
+      {"a = { x = 1 } # é\n", "a", "z", "a = { x = 1 , z = 7 } # é\n"},
+      {"t = \"é\"\na = { s = \"éé\", x = [1, 2] }", "a", "x",
+       "t = \"é\"\n# identified: [1, 2] before; why\na = { s = \"éé\", x = 7 }"},
+      {"[a]\nb.x = 1", "a.b", "z", "[a]\n# identified: why\nb.z = 7\nb.x = 1"},
+      {"[[p]]\nx = 1\n[[p]]\nx = 2", "p[1]", "x",
+       "[[p]]\nx = 1\n[[p]]\n# identified: 2 before; why\nx = 7"},
+      {"x = 1", "a.b", "c.d", "x = 1\n\n[a.b]\n# identified: why\n\"c.d\" = 7\n"},
+      {"[a]\nx = [\n  1, # one\n  2,\n]\n", "a", "x", "[a]\n# identified: why\nx = 7\n"},
+  };
+  for (const auto& row : rows) {
+    ProfileText profile(row.before);
+    profile.set(row.section, row.key, "7", "why");
+    assert_string_equal(profile.text().c_str(), row.after);
+  }
   assert_string_equal(toml_quoted("a\"b\\c\n").c_str(), "\"a\\\"b\\\\c\\u000A\"");
 }
 

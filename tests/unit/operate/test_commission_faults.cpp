@@ -23,14 +23,13 @@ constexpr double kWrong_m = 0.050;
 /// To neutral, once the controller has said its fault or enable is gone.
 constexpr double kNeutral_s = 0.02;
 
-/// With the axis that is tried.
-using Change = std::function<void(CommissionBench&, unsigned)>;
+/// Begins it or takes it back, with the axis that is tried.
+using Switch = std::function<void(CommissionBench&, unsigned axis, bool on)>;
 
 struct Row {
   const char* name;
   bool from_the_start;  ///< Else it comes while a drive is told to move.
-  Change begin;
-  Change cure;
+  Switch turn;
   std::vector<Fault> faults;  ///< Any of these; kNone: the station itself stops, or pauses.
 };
 
@@ -41,12 +40,16 @@ std::vector<machines::SimulatedExcavator> machines_to_try() {
           machines::load_simulated_excavator(machines::find_profile("excavator_22t"), hidden)};
 }
 
+void expect_done(CommissionBench& bench) {
+  assert_true(bench.run_to_end());
+  assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+}
+
 /// What a sound machine gives.
 Results sound_results(const machines::SimulatedExcavator& machine, const SequenceOptions& options) {
   CommissionBench bench(machine, options);
   bench.hands.deadman = true;
-  assert_true(bench.run_to_end());
-  assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+  expect_done(bench);
   return bench.station->sequence().results();
 }
 
@@ -60,6 +63,16 @@ void expect_same(const Results& results, const Results& sound) {
   }
 }
 
+/// It stops by itself with this fault, and is neutral.
+void expect_stop(CommissionBench& bench, double within_s, Fault fault) {
+  bench.hands.deadman = true;
+  assert_true(bench.run_to_end(within_s));
+  assert_int_equal(bench.station->end(), CommissionEnd::kFault);
+  assert_int_equal(bench.fault(), fault);
+  bench.run(kNeutral_s);
+  assert_true(bench.neutral());
+}
+
 bool is_one_of(Fault fault, const std::vector<Fault>& any) {
   return std::count(any.begin(), any.end(), fault) > 0;
 }
@@ -70,14 +83,14 @@ void try_row(const Row& row, const machines::SimulatedExcavator& machine, int ax
   const Results sound = sound_results(machine, options);
   CommissionBench bench(machine, options);
   if (row.from_the_start) {
-    row.begin(bench, static_cast<unsigned>(axis));
+    row.turn(bench, static_cast<unsigned>(axis), true);
     bench.run(0.5);
   }
   bench.begin_watch();
   bench.hands.deadman = true;
   if (!row.from_the_start) {
     assert_true(bench.run_until([&] { return bench.duty() > 0.2; }, 20.0));
-    row.begin(bench, static_cast<unsigned>(axis));
+    row.turn(bench, static_cast<unsigned>(axis), true);
   }
   assert_true(bench.run_to_end(20.0));
   const Fault fault = bench.fault();
@@ -90,10 +103,9 @@ void try_row(const Row& row, const machines::SimulatedExcavator& machine, int ax
   assert_true(bench.strayed_m < kWrong_m);
   assert_true(bench.station->end() == CommissionEnd::kWrongWay || is_one_of(fault, row.faults));
   assert_false(bench.station->end_words().empty());
-  row.cure(bench, static_cast<unsigned>(axis));
+  row.turn(bench, static_cast<unsigned>(axis), false);
   bench.restart_station(bench.station->sequence().results());
-  assert_true(bench.run_to_end());
-  assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+  expect_done(bench);
   expect_same(bench.station->sequence().results(), sound);
 }
 
@@ -108,43 +120,31 @@ void try_rows(const std::vector<Row>& rows, const std::vector<int>& axes) {
 }
 
 TEST(valves_and_sensors_the_wrong_way) {
-  const std::vector<Row> rows = {
-      {"reversed valve",
-       true,
-       [](CommissionBench& bench, unsigned axis) {
-         bench.plant.faults().axis[axis].reversed = true;
-       },
-       [](CommissionBench& bench, unsigned axis) {
-         bench.plant.faults().axis[axis].reversed = false;
-       },
-       {Fault::kWrongDirection}},
-      {"swapped stroke sensors",
-       true,
-       [](CommissionBench& bench, unsigned) {
-         bench.plant.faults().stroke_from = {1, 0, 2};
-       },
-       [](CommissionBench& bench, unsigned) {
-         bench.plant.faults().stroke_from = {0, 1, 2};
-       },
-       {Fault::kUncommandedMotion}},
-  };
-  try_rows({rows[0]}, {kBoom, kArm, kBucket});
-  try_rows({rows[1]}, {kBoom, kArm});
+  try_rows({{"reversed valve",
+             true,
+             [](CommissionBench& bench, unsigned axis, bool on) {
+               bench.plant.faults().axis[axis].reversed = on;
+             },
+             {Fault::kWrongDirection}}},
+           {kBoom, kArm, kBucket});
+  try_rows({{"swapped stroke sensors",
+             true,
+             [](CommissionBench& bench, unsigned, bool on) {
+               bench.plant.faults().stroke_from = {on ? 1U : 0U, on ? 0U : 1U, 2};
+             },
+             {Fault::kUncommandedMotion}}},
+           {kBoom, kArm});
 }
 
 TEST(spools_that_hang) {
-  const std::vector<Row> rows = {
-      {"spool held open",
-       false,
-       [](CommissionBench& bench, unsigned axis) {
-         bench.plant.faults().axis[axis].spool_held_ratio = -0.5;
-       },
-       [](CommissionBench& bench, unsigned axis) {
-         bench.plant.faults().axis[axis].spool_held_ratio.reset();
-       },
-       {Fault::kSpoolStuck, Fault::kWrongDirection, Fault::kUncommandedMotion}},
-  };
-  try_rows(rows, {kBoom, kArm, kBucket});
+  try_rows({{"spool held open",
+             false,
+             [](CommissionBench& bench, unsigned axis, bool on) {
+               auto& held_ratio = bench.plant.faults().axis[axis].spool_held_ratio;
+               held_ratio = on ? std::optional<double>(-0.5) : std::nullopt;
+             },
+             {Fault::kSpoolStuck, Fault::kWrongDirection, Fault::kUncommandedMotion}}},
+           {kBoom, kArm, kBucket});
 }
 
 /// Of a drive whose sensor stands from the start nothing tells that it moves but its pressures.
@@ -155,19 +155,13 @@ TEST(a_stuck_stroke_sensor) {
       CommissionBench bench(machine, test::one_drive(machine, axis));
       plant::StrokeFault& stroke = bench.plant.faults().axis[static_cast<unsigned>(axis)].stroke;
       stroke.stuck = true;
-      bench.hands.deadman = true;
-      assert_true(bench.run_to_end(30.0));
-      assert_int_equal(bench.station->end(), CommissionEnd::kFault);
-      assert_int_equal(bench.fault(), Fault::kStrokeStuck);
-      bench.run(kNeutral_s);
-      assert_true(bench.neutral());
+      expect_stop(bench, 30.0, Fault::kStrokeStuck);
       std::printf("stuck stroke sensor, %s: %.1f mm unseen\n", commission::axis_name(axis),
                   1e3 * bench.unseen_m(axis));
       assert_true(bench.unseen_m(axis) < kUnseen_m);
       stroke = {};
       bench.restart_station(bench.station->sequence().results());
-      assert_true(bench.run_to_end());
-      assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+      expect_done(bench);
     }
   }
 }
@@ -176,43 +170,40 @@ TEST(engine_and_bus_that_go) {
   const std::vector<Row> rows = {
       {"engine stops",
        false,
-       [](CommissionBench& bench, unsigned) { bench.plant.faults().engine_ratio = 0.0; },
-       [](CommissionBench& bench, unsigned) { bench.plant.faults().engine_ratio = 1.0; },
+       [](CommissionBench& bench, unsigned, bool on) {
+         bench.plant.faults().engine_ratio = on ? 0.0 : 1.0;
+       },
        {Fault::kEngineStopped}},
       {"station's frames stop",
        false,
-       [](CommissionBench& bench, unsigned) { bench.sends = false; },
-       [](CommissionBench& bench, unsigned) { bench.sends = true; },
+       [](CommissionBench& bench, unsigned, bool on) { bench.sends = !on; },
        {Fault::kOperatorMissing}},
       {"machine's frames stop",
        false,
-       [](CommissionBench& bench, unsigned) {
-         bench.plant.faults().set_silent(Dbc::ArmStroke::kId, true);
-       },
-       [](CommissionBench& bench, unsigned) {
-         bench.plant.faults().set_silent(Dbc::ArmStroke::kId, false);
+       [](CommissionBench& bench, unsigned, bool on) {
+         bench.plant.faults().set_silent(Dbc::ArmStroke::kId, on);
        },
        {Fault::kStrokeMissing}},
       {"CRC of CommissionDuty",
        false,
-       [](CommissionBench& bench, unsigned) {
-         bench.bus.set_fault_hook([](CanFrame& frame, const LoopbackPort*) {
-           if (frame.id == Dbc::CommissionDuty::kId) {
+       [](CommissionBench& bench, unsigned, bool on) {
+         bench.bus.set_fault_hook([on](CanFrame& frame, const LoopbackPort*) {
+           if (on && frame.id == Dbc::CommissionDuty::kId) {
              runs::corrupt(frame);
            }
            return true;
          });
        },
-       [](CommissionBench& bench, unsigned) { bench.bus.set_fault_hook(nullptr); },
        {Fault::kOperatorMissing}},
       {"controller's bus is gone",
        false,
-       [](CommissionBench& bench, unsigned) {
-         bench.ecu_port.set_state(CanPortState::kDown);
-         bench.run(0.3);
-         bench.ecu_port.set_state(CanPortState::kClosed);
+       [](CommissionBench& bench, unsigned, bool on) {
+         if (on) {  // For a while.
+           bench.ecu_port.set_state(CanPortState::kDown);
+           bench.run(0.3);
+           bench.ecu_port.set_state(CanPortState::kClosed);
+         }
        },
-       [](CommissionBench&, unsigned) {},
        {Fault::kBusDown}},
   };
   try_rows(rows, {kArm});
@@ -255,17 +246,11 @@ TEST(a_blocked_cylinder) {
   CommissionBench bench(machine, options);
   bench.begin_watch();
   const Eigen::Vector3d from_m = bench.strokes_m();
-  bench.hands.deadman = true;
-  assert_true(bench.run_to_end(60.0));
-  assert_int_equal(bench.station->end(), CommissionEnd::kFault);
-  assert_int_equal(bench.fault(), Fault::kStrokeStuck);
-  bench.run(kNeutral_s);
-  assert_true(bench.neutral());
+  expect_stop(bench, 60.0, Fault::kStrokeStuck);
   assert_true((bench.strokes_m() - from_m).norm() < kWrong_m);
   CommissionBench after(sound, options);
   after.restart_station(bench.station->sequence().results());
-  assert_true(after.run_to_end());
-  assert_int_equal(after.station->end(), CommissionEnd::kDone);
+  expect_done(after);
   expect_same(after.station->sequence().results(), sound_results(sound, options));
 }
 
@@ -304,8 +289,7 @@ TEST(windows_that_do_not_arrive) {
   assert_int_equal(bench.fault(), Fault::kNone);
   assert_int_equal(bench.station->sequence().at(), at);
   bench.bus.set_fault_hook(nullptr);
-  assert_true(bench.run_to_end());
-  assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+  expect_done(bench);
   expect_same(bench.station->sequence().results(), sound_results(machine, options));
 }
 
@@ -316,12 +300,7 @@ TEST(over_speed) {
   options.window[kArm].most_mps = 0.015;
   CommissionBench bench(machine, options);
   bench.begin_watch();
-  bench.hands.deadman = true;
-  assert_true(bench.run_to_end(40.0));
-  assert_int_equal(bench.station->end(), CommissionEnd::kFault);
-  assert_int_equal(bench.fault(), Fault::kCommissionBound);
-  bench.run(kNeutral_s);
-  assert_true(bench.neutral());
+  expect_stop(bench, 40.0, Fault::kCommissionBound);
   assert_true(bench.strayed_m < kWrong_m);
 }
 

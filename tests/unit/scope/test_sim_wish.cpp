@@ -76,36 +76,31 @@ TEST(more_wishes_than_can_wait) {
 }
 
 TEST(options_that_do_not_fit) {
-  const auto throws = [](const scope::SimOptions& options, const char* words) {
+  const struct {
+    const char *task, *profile, *task_file, *soil, *words;
+  } rows[] = {
+      {"plough", "", "", "", "allowed: dig, grade, autodig"},
+      {"grade", "excavator_22t", "", "", "needs a dozer"},
+      {"dig", "dozer_9t", "", "", "needs an excavator"},
+      {"autodig", "excavator_22t", "", "", "swing drive"},
+      {"dig", "", "flatten", "", "of the task autodig alone"},
+      {"grade", "", "", "loam", "of an excavator alone"},
+      {"autodig", "", "", "kim", "of the task dig alone"},
+      {"autodig", "", "", "mud", "sand, loam, clay, stones"},
+  };
+  for (const auto& row : rows) {
+    scope::SimOptions options = options_of(row.task);
+    options.profile = row.profile;
+    options.task_file = row.task_file;
+    options.soil = row.soil;
+    std::string said;
     try {
       const SimWatch sim(options);
     } catch (const std::runtime_error& error) {
-      return std::string(error.what()).find(words) != std::string::npos;
+      said = error.what();
     }
-    return false;
-  };
-  scope::SimOptions options = options_of("plough");
-  assert_true(throws(options, "allowed: dig, grade, autodig"));
-  options = options_of("grade");
-  options.profile = "excavator_22t";
-  assert_true(throws(options, "needs a dozer"));
-  options = options_of("dig");
-  options.profile = "dozer_9t";
-  assert_true(throws(options, "needs an excavator"));
-  options = options_of("autodig");
-  options.profile = "excavator_22t";
-  assert_true(throws(options, "swing drive"));
-  options = options_of("dig");
-  options.task_file = "flatten";
-  assert_true(throws(options, "of the task autodig alone"));
-  options = options_of("grade");
-  options.soil = "loam";
-  assert_true(throws(options, "of an excavator alone"));
-  options = options_of("autodig");
-  options.soil = "kim";
-  assert_true(throws(options, "of the task dig alone"));
-  options.soil = "mud";
-  assert_true(throws(options, "sand, loam, clay, stones"));
+    assert_true(said.find(row.words) != std::string::npos);
+  }
 }
 
 TEST(only_the_digging_machine_has_ground) {
