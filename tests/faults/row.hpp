@@ -2,6 +2,8 @@
 #pragma once
 /// The rows of the table, each with the function that tries it once.
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "tests/faults/dozer_kind.hpp"
@@ -24,6 +26,43 @@ struct Row : RowText {
 
   void (*run)(Trial<Kind>& trial);  ///< Null: not tried here.
 };
+
+/// A cylinder on its way: to its end, and the pressure in its chambers.
+struct AtEnd {
+  double left_m = 0.0;
+  double peak_pa = 0.0;
+};
+
+/// Set up where a cylinder is about to come to its end: the machine goes on, slower, and no chamber
+/// sees much more than its relief. `look` says what is there after each cycle.
+template <class Kind, class Look>
+void expect_slowed_at_end(Trial<Kind>& trial, TimeUs during_us, double relief_pa,
+                          const Look& look) {
+  Rig<Kind>& rig = *trial.rig;
+  rig.run(200 * kMillisecondUs);
+  rig.ask(true, Task::kNone);
+  rig.run(100 * kMillisecondUs);
+  rig.ask(true, Kind::kTask);
+  rig.run(50 * kMillisecondUs);
+  AtEnd seen{1e3, 0.0};
+  bool active = true;
+  bool slowed = false;
+  rig.run_until(during_us, [&] {
+    const AtEnd now = look(rig.plant.plant());
+    seen = {std::min(seen.left_m, now.left_m), std::max(seen.peak_pa, now.peak_pa)};
+    active = active && rig.mode() == EcuMode::kActive;
+    const auto& statuses = rig.record.statuses;
+    slowed = slowed || (!statuses.empty() && statuses.back().limit.kind == LimitKind::kStrokeEnd);
+    return false;
+  });
+  trial.check(active, "did not go on");
+  trial.check(slowed, "no limit StrokeEnd on the bus; closest " +
+                          std::to_string(1e3 * seen.left_m) + " mm");
+  constexpr double kPeakShare = 1.1;
+  trial.check(seen.peak_pa <= kPeakShare * relief_pa,
+              "a chamber saw " + std::to_string(1e-6 * seen.peak_pa) + " MPa");
+  trial.saw("D");
+}
 
 template <class Kind>
 using Rows = std::vector<Row<Kind>>;

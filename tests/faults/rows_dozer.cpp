@@ -95,34 +95,12 @@ void runs_at_its_end(Trial<Dozer>& trial) {
   profile.grade.point[1] = {2.0, 0.0};
   profile.grade.point[2] = {5.0, -0.9 - 0.2 * trial.random.uniform()};
   trial.set_up(scenery);
-  Rig<Dozer>& rig = *trial.rig;
-  rig.run(200 * kMillisecondUs);
-  rig.ask(true, Task::kNone);
-  rig.run(100 * kMillisecondUs);
-  rig.ask(true, Dozer::kTask);
-  rig.run(50 * kMillisecondUs);
-  const double most_m = Dozer::longest_m(rig.plant.plant())[0];
-  bool active = true;
-  bool slowed = false;
-  double peak_pa = 0.0;
-  double least_left_m = most_m;
-  rig.run_until(20 * kSecondUs, [&] {
-    const plant::DozerPlant& plant = rig.plant.plant();
-    peak_pa = std::max(
-        {peak_pa, plant.cylinder().cap().pressure_pa(), plant.cylinder().rod().pressure_pa()});
-    least_left_m = std::min(least_left_m, most_m - plant.blade_stroke_m());
-    active = active && rig.mode() == EcuMode::kActive;
-    const auto& statuses = rig.record.statuses;
-    slowed = slowed || (!statuses.empty() && statuses.back().limit.kind == LimitKind::kStrokeEnd);
-    return false;
-  });
-  trial.check(active, "did not go on");
-  trial.check(slowed, "no limit StrokeEnd on the bus; closest " +
-                          std::to_string(1e3 * least_left_m) + " mm");
-  constexpr double kPeakShare = 1.1;
-  trial.check(peak_pa <= kPeakShare * scenery.machine.plant.implement_relief_pa,
-              "a chamber saw " + std::to_string(1e-6 * peak_pa) + " MPa");
-  trial.saw("D");
+  expect_slowed_at_end(trial, 20 * kSecondUs, scenery.machine.plant.implement_relief_pa,
+                       [](const Dozer::Plant& plant) {
+                         return AtEnd{Dozer::longest_m(plant)[0] - plant.blade_stroke_m(),
+                                      std::max(plant.cylinder().cap().pressure_pa(),
+                                               plant.cylinder().rod().pressure_pa())};
+                       });
 }
 
 }  // namespace

@@ -121,34 +121,16 @@ void runs_at_its_end(Trial<Excavator>& trial) {
       kinematics.strokes_from_pose(pose_at(RoundedRectangle(path), closest.share - kBefore_share));
   scenery.start_strokes_m = start.strokes_m;
   trial.set_up(scenery);
-  auto& rig = *trial.rig;
-  rig.run(200 * kMillisecondUs);
-  rig.ask(true, Task::kNone);
-  rig.run(100 * kMillisecondUs);
-  rig.ask(true, Excavator::kTask);
-  rig.run(50 * kMillisecondUs);
-  double least_left_m = 1.0;
-  bool active = true;
-  bool slowed = false;
-  rig.run_until(10 * kSecondUs, [&] {
-    const auto strokes_m = rig.plant.plant().strokes_m();
-    for (unsigned i = 0; i < kAxisCount; ++i) {
-      const double most_m = machine.profile.geometry.cylinder[i].stroke_m;
-      least_left_m = std::min({least_left_m, strokes_m[i], most_m - strokes_m[i]});
-    }
-    active = active && rig.mode() == EcuMode::kActive;
-    const auto& statuses = rig.record.statuses;
-    slowed = slowed || (!statuses.empty() && statuses.back().limit.kind == LimitKind::kStrokeEnd);
-    return false;
-  });
-  trial.check(active, "did not go on");
-  trial.check(slowed, "no limit StrokeEnd on the bus; closest " +
-                          std::to_string(1e3 * least_left_m) + " mm");
-  constexpr double kPeakShare = 1.1;
-  const double peak_pa = rig.plant.plant().peak_chamber_pressure_pa();
-  trial.check(peak_pa <= kPeakShare * machine.plant.port_relief_pa,
-              "a chamber saw " + std::to_string(1e-6 * peak_pa) + " MPa");
-  trial.saw("D");
+  expect_slowed_at_end(trial, 10 * kSecondUs, machine.plant.port_relief_pa,
+                       [&](const Excavator::Plant& plant) {
+                         AtEnd now{1.0, plant.peak_chamber_pressure_pa()};
+                         for (unsigned i = 0; i < kAxisCount; ++i) {
+                           const double most_m = machine.profile.geometry.cylinder[i].stroke_m;
+                           const double stroke_m = plant.strokes_m()[i];
+                           now.left_m = std::min({now.left_m, stroke_m, most_m - stroke_m});
+                         }
+                         return now;
+                       });
 }
 
 }  // namespace

@@ -2,20 +2,15 @@
 """Proves that the judge of the faults that look healthy can say no: canary_plausible.py OUT takes what
 hil_plausible left, as it is, then with one thing of it changed."""
 
-import contextlib
-import io
 import pathlib
 import re
-import shutil
 import sys
-import tempfile
 from collections.abc import Callable
 
-import guest
 import plausible
 from bus_log import ECU_STATUS, SPOOL_COMMAND
+from canary_judge import prove
 from plausible_cases import CASES
-from scenario import Nowhere
 
 LINE = re.compile(r"^\((\d+\.\d+)\) (\S+) ([0-9A-F]+)#([0-9A-F]*)")
 
@@ -114,21 +109,7 @@ SEEDS = {
 
 def main() -> int:
     left = pathlib.Path(sys.argv[1])
-    if not (left / "uptime").exists():
-        return guest.give_up("plausible's canary", Nowhere("hil_plausible left nothing to judge"))
-    with contextlib.redirect_stdout(io.StringIO()):
-        if problems := plausible.check(CASES, left):
-            sys.exit(f"canary: refused as it is: {problems}")
-    for name, (seed, words) in SEEDS.items():
-        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
-            out = pathlib.Path(folder, "out")
-            shutil.copytree(left, out)
-            seed(out)
-            problems = plausible.check(CASES, out)
-        if not any(re.search(words, problem) for problem in problems):
-            sys.exit(f"canary: {name}: '{words}' is not among {problems}")
-        print(f"canary: {name}: as expected")
-    return 0
+    return prove("plausible", left, left / "uptime", lambda out: plausible.check(CASES, out), SEEDS)
 
 
 if __name__ == "__main__":

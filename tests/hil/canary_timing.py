@@ -2,19 +2,14 @@
 """Proves that the judges of timing and memory can say no: canary_timing.py OUT takes what hil_timing
 left, as it is, then with one figure of it changed."""
 
-import contextlib
-import io
 import pathlib
 import re
-import shutil
 import sys
-import tempfile
 from collections.abc import Callable
 
-import guest
 import resident
 import timing
-from scenario import Nowhere
+from canary_judge import prove
 
 RUN = timing.RUNS[0]
 HEARD = next(run for run in timing.RUNS if run.identifier)
@@ -87,21 +82,7 @@ CASES = {
 
 def main() -> int:
     left = pathlib.Path(sys.argv[1])
-    if not (timing.boots_of(left)[-1] / "console.txt").exists():
-        return guest.give_up("timing's canary", Nowhere("hil_timing left nothing to judge"))
-    with contextlib.redirect_stdout(io.StringIO()):
-        if problems := judge(left):
-            sys.exit(f"canary: refused as it is: {problems}")
-    for case, (seed, words) in CASES.items():
-        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
-            out = pathlib.Path(folder, "out")
-            shutil.copytree(left, out)
-            seed(out)
-            problems = judge(out)
-        if not any(re.search(words, problem) for problem in problems):
-            sys.exit(f"canary: {case}: '{words}' is not among {problems}")
-        print(f"canary: {case}: as expected")
-    return 0
+    return prove("timing", left, timing.boots_of(left)[-1] / "console.txt", judge, CASES)
 
 
 if __name__ == "__main__":

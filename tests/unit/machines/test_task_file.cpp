@@ -72,22 +72,20 @@ TEST(every_error_is_listed) {
       "through = [0.0, 0.0, 0.0]\n"
       "normal = [1.0, 0.0, 0.0]\n"
       "clearance = -1.0\n");
-  assert_says(errors,
-              "start.position (line 1): must be an array of 3 numbers; allowed: -30 .. 30 m");
-  assert_says(errors, "start.attitude (line 1): 9.0 is out of range; allowed: -7 .. 7 rad");
-  assert_says(errors, "repeat (line 2): 1; allowed: true, false");
-  assert_says(errors, "colour (line 3): unknown key");
-  assert_says(errors,
-              "step[0].do (line 5): 'dance'; allowed: dig, lift, swing, dump, return, wait");
-  assert_says(errors,
-              "step[0].to.position[2] (line 6): 99.0 is out of range; allowed: -30 .. 30 m");
-  assert_says(errors, "step[0].to.attitude: missing");
-  assert_says(errors, "step[0] (line 4): has a speed and a duration; allowed: one of them");
-  assert_says(errors, "step[1].path (line 11): 'spiral'; allowed: line, drives");
-  assert_says(errors, "step[1].speed (line 13): 9.0 is out of range; allowed: 0.01 .. 3 m/s");
-  assert_says(errors, "fence[0].normal (line 17): has no direction");
-  assert_says(errors, "design.normal (line 20): must point up");
-  assert_says(errors, "design.clearance (line 21): -1.0 is out of range; allowed: 0.03 .. 1 m");
+  for (const char* said :
+       {"start.position (line 1): must be an array of 3 numbers; allowed: -30 .. 30 m",
+        "start.attitude (line 1): 9.0 is out of range; allowed: -7 .. 7 rad",
+        "repeat (line 2): 1; allowed: true, false", "colour (line 3): unknown key",
+        "step[0].do (line 5): 'dance'; allowed: dig, lift, swing, dump, return, wait",
+        "step[0].to.position[2] (line 6): 99.0 is out of range; allowed: -30 .. 30 m",
+        "step[0].to.attitude: missing",
+        "step[0] (line 4): has a speed and a duration; allowed: one of them",
+        "step[1].path (line 11): 'spiral'; allowed: line, drives",
+        "step[1].speed (line 13): 9.0 is out of range; allowed: 0.01 .. 3 m/s",
+        "fence[0].normal (line 17): has no direction", "design.normal (line 20): must point up",
+        "design.clearance (line 21): -1.0 is out of range; allowed: 0.03 .. 1 m"}) {
+    assert_says(errors, said);
+  }
 }
 
 const char* const kKeepOuts =
