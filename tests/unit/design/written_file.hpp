@@ -6,8 +6,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
+
+#include "tests/unit/refusal.hpp"
 
 namespace graben::test {
 
@@ -30,17 +31,6 @@ class WrittenFile {
   std::filesystem::path folder_;
   std::filesystem::path file_;
 };
-
-/// What it says where it throws; empty where it does not.
-template <class Run>
-std::string refusal_of(Run run) {
-  try {
-    run();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 inline bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -134,9 +134,7 @@ TEST_FOR_EACH(a_port_that_is_down_is_tried_every_200_ms, Kind, Excavator, Dozer)
     assert_int_equal(rig.port.opened, 1 + cycle / 20);
   }
   rig.port.opens = true;
-  for (int cycle = 0; cycle < 20; ++cycle) {
-    assert_int_equal(rig.step().bus, BusState::kDown);
-  }
+  repeat(20, [&] { assert_int_equal(rig.step().bus, BusState::kDown); });
   assert_int_equal(rig.port.opened, 4);
   assert_int_equal(rig.step().bus, BusState::kActive);
   rig.step();
@@ -265,9 +263,7 @@ TEST_FOR_EACH(the_process_is_told_of, Kind, Excavator, Dozer) {
   rig.port.refused_command = 0;
   rig.ecu.set_process_health({1, 2, 3, true});
   rig.ecu.request_stop();
-  for (int cycle = 0; cycle < 10; ++cycle) {
-    assert_true(rig.step().stop_requested);
-  }
+  repeat(10, [&] { assert_true(rig.step().stop_requested); });
   assert_int_equal(rig.port.health.allocations.value, 1);
   assert_int_equal(rig.port.health.page_faults.value, 2);
   assert_int_equal(rig.port.health.overruns.value, 3);

@@ -18,9 +18,7 @@ std::vector<double> shown(double true_pa, int count, unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> noise(0.0, kNoise_pa);
   std::vector<double> readings_pa;
-  for (int n = 0; n < count; ++n) {
-    readings_pa.push_back(std::max(0.0, true_pa + noise(random)));
-  }
+  repeat(count, [&] { readings_pa.push_back(std::max(0.0, true_pa + noise(random))); });
   return readings_pa;
 }
 

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "app/identify/file/profile_text.hpp"
 #include "app/identify/machine/identified_profile.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 using namespace graben::identify;
 
@@ -170,11 +170,5 @@ TEST(values_are_found_however_they_are_written) {
 }
 
 TEST(what_is_no_toml_is_refused) {
-  bool refused = false;
-  try {
-    ProfileText("[a\n");
-  } catch (const std::runtime_error&) {
-    refused = true;
-  }
-  assert_true(refused);
+  graben::test::expect_refusal([] { return ProfileText("[a\n"); }, "");
 }

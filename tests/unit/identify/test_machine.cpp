@@ -13,6 +13,7 @@
 #include "app/runs/known_machine.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/refusal.hpp"
 
 using namespace graben::identify;
 
@@ -110,11 +111,5 @@ TEST(what_is_not_driven_is_said) {
 
 TEST(a_log_that_says_nothing_is_refused) {
   LogCollector empty("empty.log");
-  bool refused = false;
-  try {
-    static_cast<void>(empty.log(2));
-  } catch (const std::runtime_error& error) {
-    refused = std::string(error.what()).find("empty.log") != std::string::npos;
-  }
-  assert_true(refused);
+  graben::test::expect_refusal([&] { return empty.log(2); }, "empty.log");
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "app/identify/joint_motion.hpp"
 #include "app/identify/motion_result.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 using namespace graben::identify;
 
@@ -318,13 +318,8 @@ TEST(linkage_and_slow_pump_are_found) {
   assert_near(score.angle_1s_rms_rad, 0.0, 0.02);
 }
 
-std::string refusal(std::vector<MotionRun> train, std::vector<MotionRun> judge) {
-  try {
-    (void)split_motion(std::move(train), std::move(judge));
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+std::string refusal(const std::vector<MotionRun>& train, const std::vector<MotionRun>& judge) {
+  return graben::test::refusal_of([&] { return split_motion(train, judge); });
 }
 
 TEST(judged_runs_are_others) {

@@ -14,6 +14,7 @@
 #include "app/plant/linkage_geometry.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/refusal.hpp"
 
 using namespace graben::identify;
 
@@ -80,13 +81,9 @@ struct Site {
 };
 
 std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  fail_msg("not refused");
-  return "";
+  const std::string said = graben::test::refusal_of(act);
+  assert_false(said.empty());
+  return said;
 }
 
 void assert_says(const std::string& text, const std::string& words) {

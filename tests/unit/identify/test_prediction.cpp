@@ -15,6 +15,7 @@
 #include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/evaluation.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 using namespace graben::identify;
 
@@ -194,12 +195,7 @@ MachineLog log_of(bool moves) {
 }
 
 bool is_refused(const std::vector<MachineLog>& logs) {
-  try {
-    static_cast<void>(split_logs(logs));
-    return false;
-  } catch (const std::runtime_error&) {
-    return true;
-  }
+  return !graben::test::refusal_of([&] { return split_logs(logs); }).empty();
 }
 
 TEST(what_judges_is_not_fitted) {

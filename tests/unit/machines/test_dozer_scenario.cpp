@@ -3,10 +3,8 @@
 
 #include "app/machines/simulated/simulated_dozer.hpp"
 
-#include <cstring>
-#include <stdexcept>
-
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 using machines::arranged;
 using machines::DozerScenario;
@@ -62,24 +60,15 @@ TEST(the_ends_of_the_engines_range_are_in_it) {
 TEST(a_design_above_the_ground_is_refused) {
   SimulatedDozer machine = nominal();
   machine.profile.grade.plane_slope = 0.01;
-  try {
-    static_cast<void>(arranged(machine, {}));
-    fail_msg("a design above the ground");
-  } catch (const std::runtime_error& error) {
-    assert_non_null(std::strstr(error.what(), "above the simulated ground at x = 2."));
-  }
+  test::expect_refusal([&] { return arranged(machine, {}); },
+                       "above the simulated ground at x = 2.");
 }
 
 TEST(an_engine_out_of_range_is_refused) {
   for (const double radps : {94.2, 230.4}) {
     DozerScenario scenario;
     scenario.engine_radps = radps;
-    try {
-      static_cast<void>(arranged(nominal(), scenario));
-      fail_msg("an engine of %g rad/s", radps);
-    } catch (const std::runtime_error& error) {
-      assert_non_null(std::strstr(error.what(), "94.25 .. 230.38 rad/s"));
-    }
+    test::expect_refusal([&] { return arranged(nominal(), scenario); }, "94.25 .. 230.38 rad/s");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 const machines::SimulatedExcavator& machine() {
   static const machines::SimulatedExcavator loaded =
@@ -92,10 +93,5 @@ TEST(piston_areas) {
 }
 
 TEST(a_missing_profile_says_where_it_looked) {
-  try {
-    static_cast<void>(machines::find_profile("no_such_machine"));
-    fail_msg("found a profile that is not there");
-  } catch (const std::runtime_error& error) {
-    assert_non_null(std::strstr(error.what(), "no_such_machine"));
-  }
+  test::expect_refusal([] { return machines::find_profile("no_such_machine"); }, "no_such_machine");
 }

@@ -8,11 +8,11 @@
 
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <string>
 
 #include "app/machines/simulated/hidden.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 using machines::SimulatedChoice;
 using machines::SimulatedExcavator;
@@ -54,16 +54,6 @@ const SimulatedExcavator& nominal() {
   static const SimulatedExcavator machine =
       machines::load_simulated_excavator(shipped("excavator_22t"));
   return machine;
-}
-
-template <class Load>
-std::string error_of(Load load) {
-  try {
-    static_cast<void>(load());
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 void says(const std::string& error, std::initializer_list<const char*> needles) {
@@ -143,7 +133,8 @@ TEST(a_machine_may_lie_beside) {
 TEST(what_is_wrong_is_told_where_it_is) {
   const Folder folder;
   const auto error = [&folder](const std::string& text) {
-    return error_of([&] { return machines::load_simulation(folder.write("mine.sim.toml", text)); });
+    return test::refusal_of(
+        [&] { return machines::load_simulation(folder.write("mine.sim.toml", text)); });
   };
   const std::string named = "machine = \"excavator_22t\"\n";
   says(error(named + "[valve]\nedge = { boom = [0.5, 0.95] }\nedges = 1"),
@@ -209,11 +200,11 @@ TEST(a_hidden_machine_is_put_in_by_its_seed) {
 TEST(a_machine_with_other_drives_is_refused) {
   SimulatedChoice choice;
   choice.name = "excavator_22t_found";
-  says(error_of(
+  says(test::refusal_of(
            [&] { return machines::load_simulated_excavator(shipped("excavator_12t"), choice); }),
        {"excavator_12t.toml: 4 drives", "has 3"});
   choice.name = "none_such";
-  says(error_of(
+  says(test::refusal_of(
            [&] { return machines::load_simulated_excavator(shipped("excavator_22t"), choice); }),
        {"simulated machine 'none_such': there is no such file",
         "wanted: a file or one of dozer_9t"});

@@ -5,6 +5,7 @@
 
 #include "app/machines/excavator_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 const ExcavatorProfile& profile() {
   static const machines::ExcavatorMachine machine =
@@ -22,12 +23,7 @@ TaskBook book(const std::vector<std::string>& names) {
 }
 
 std::string errors_of(const std::vector<std::string>& names) {
-  try {
-    static_cast<void>(book(names));
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal_of([&] { return book(names); });
 }
 
 void assert_says(const std::string& errors, const std::string& what) {

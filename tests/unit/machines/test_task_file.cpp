@@ -5,6 +5,7 @@
 
 #include "app/machines/task_text.hpp"
 #include "tests/unit/machines/written_task.hpp"
+#include "tests/unit/refusal.hpp"
 
 using namespace graben::test;
 
@@ -282,10 +283,6 @@ TEST(what_ends_a_step_or_a_round_is_checked) {
 }
 
 TEST(a_missing_task_says_where_it_looked) {
-  try {
-    static_cast<void>(machines::find_task("no_such_task"));
-    fail_msg("found a task that is not there");
-  } catch (const std::runtime_error& error) {
-    assert_says(error.what(), "task 'no_such_task': there is no such file");
-  }
+  expect_refusal([] { return machines::find_task("no_such_task"); },
+                 "task 'no_such_task': there is no such file");
 }

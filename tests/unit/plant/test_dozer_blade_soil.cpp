@@ -5,6 +5,7 @@
 #include "app/machines/simulated/soil_kinds.hpp"
 #include "app/plant/dozer_blade_soil.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 using plant::BladeSoil;
 using plant::Terrain;
@@ -116,11 +117,5 @@ TEST(a_drawn_soil_is_within_forty_percent) {
     assert_true(std::abs(drawn.cohesion_pa / told.cohesion_pa - 1.0) <= 0.4);
     assert_true(drawn.cohesion_pa != told.cohesion_pa);
   }
-  bool refused = false;
-  try {
-    static_cast<void>(machines::ground_of("snow", false, 0));
-  } catch (const std::runtime_error&) {
-    refused = true;
-  }
-  assert_true(refused);
+  graben::test::expect_refusal([] { return machines::ground_of("snow", false, 0); }, "snow");
 }

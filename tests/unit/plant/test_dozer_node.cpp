@@ -12,32 +12,22 @@ using dbc::RawState;
 TEST(messages_come_at_their_rates, DozerRig rig) {
   rig.cycle();
   assert_int_equal(rig.seen.size(), 10);
-  assert_int_equal(rig.seen.count(dozer_bus::ValveState::kId), 0);
+  check_seen<dozer_bus::ValveState>(rig, 0);
   rig.cycles(199);
-  for (const std::uint32_t id :
-       {dozer_bus::BladeStroke::kId, dozer_bus::BodyPosition::kId, dozer_bus::BodyPitch::kId,
-        dozer_bus::BodyVelocity::kId, dozer_bus::LeftTransmission::kId,
-        dozer_bus::RightTransmission::kId, dozer_bus::TrackSpeed::kId}) {
-    assert_int_equal(rig.seen[id].size(), 200);
-  }
-  assert_int_equal(rig.seen[dozer_bus::EEC1::kId].size(), 100);
-  assert_int_equal(rig.seen[dozer_bus::ValveState::kId].size(), 100);
-  assert_int_equal(rig.seen[dozer_bus::OperatorCommand::kId].size(), 100);
-  assert_int_equal(rig.seen[dozer_bus::MachineIdentity::kId].size(), 2);
+  check_seen<dozer_bus::BladeStroke, dozer_bus::BodyPosition, dozer_bus::BodyPitch,
+             dozer_bus::BodyVelocity, dozer_bus::LeftTransmission, dozer_bus::RightTransmission,
+             dozer_bus::TrackSpeed>(rig, 200);
+  check_seen<dozer_bus::EEC1, dozer_bus::ValveState, dozer_bus::OperatorCommand>(rig, 100);
+  check_seen<dozer_bus::MachineIdentity>(rig, 2);
   assert_int_equal(rig.seen.size(), 11);
 }
 
 TEST(frames_are_protected, DozerRig rig) {
   rig.cycles(100);
-  check_protection<dozer_bus::BladeStroke>(rig);
-  check_protection<dozer_bus::BodyPosition>(rig);
-  check_protection<dozer_bus::BodyPitch>(rig);
-  check_protection<dozer_bus::BodyVelocity>(rig);
-  check_protection<dozer_bus::LeftTransmission>(rig);
-  check_protection<dozer_bus::RightTransmission>(rig);
-  check_protection<dozer_bus::TrackSpeed>(rig);
-  check_protection<dozer_bus::ValveState>(rig);
-  check_protection<dozer_bus::OperatorCommand>(rig);
+  check_protection<dozer_bus::BladeStroke, dozer_bus::BodyPosition, dozer_bus::BodyPitch,
+                   dozer_bus::BodyVelocity, dozer_bus::LeftTransmission,
+                   dozer_bus::RightTransmission, dozer_bus::TrackSpeed, dozer_bus::ValveState,
+                   dozer_bus::OperatorCommand>(rig);
 }
 
 /// Drives with the left track slower, blade going up, commands of every kind each cycle.

@@ -26,21 +26,6 @@ TEST(valve_state_is_the_plants, Rig rig) {
   assert_true(valve.boom_spool_ratio.value > 0.3);  // enable is off, the spool on its way
 }
 
-TEST(each_spool_has_its_place_on_the_bus, Rig rig) {
-  for (int i = 0; i < 60; ++i) {
-    bus::SpoolCommand message;
-    message.enable.value = bus::SpoolCommand::Enable::kOn;
-    message.boom_duty_ratio.value = 0.1;
-    message.arm_duty_ratio.value = -0.15;
-    message.bucket_duty_ratio.value = 0.18;
-    rig.send_and_cycle(rig.frame_of(message));
-  }
-  const auto valve = last<bus::ValveState>(rig);
-  assert_near(valve.boom_spool_ratio.value, 0.1, 1e-4);
-  assert_near(valve.arm_spool_ratio.value, -0.15, 1e-4);
-  assert_near(valve.bucket_spool_ratio.value, 0.18, 1e-4);
-}
-
 void pump_for(Rig& rig, int cycles, dbc::Physical one, dbc::Physical two) {
   for (int i = 0; i < cycles; ++i) {
     if (i % 2 == 0) {

@@ -13,30 +13,18 @@ using dbc::RawState;
 
 TEST(messages_come_at_their_rates, Rig rig) {
   rig.cycles(200);
-  for (const std::uint32_t id :
-       {bus::BoomStroke::kId, bus::ArmStroke::kId, bus::BucketStroke::kId, bus::BoomPressure::kId,
-        bus::ArmPressure::kId, bus::BucketPressure::kId}) {
-    assert_int_equal(rig.seen[id].size(), 200);
-  }
-  assert_int_equal(rig.seen[bus::PumpState::kId].size(), 100);
-  assert_int_equal(rig.seen[bus::EEC1::kId].size(), 100);
-  assert_int_equal(rig.seen[bus::OperatorCommand::kId].size(), 100);
-  assert_int_equal(rig.seen[bus::MachineIdentity::kId].size(), 2);
-  assert_int_equal(rig.seen[bus::ValveState::kId].size(), 100);
+  check_seen<bus::BoomStroke, bus::ArmStroke, bus::BucketStroke, bus::BoomPressure,
+             bus::ArmPressure, bus::BucketPressure>(rig, 200);
+  check_seen<bus::PumpState, bus::EEC1, bus::OperatorCommand, bus::ValveState>(rig, 100);
+  check_seen<bus::MachineIdentity>(rig, 2);
   assert_int_equal(rig.seen.size(), 11);
 }
 
 TEST(frames_are_protected, Rig rig) {
   rig.cycles(100);
-  check_protection<bus::BoomStroke>(rig);
-  check_protection<bus::ArmStroke>(rig);
-  check_protection<bus::BucketStroke>(rig);
-  check_protection<bus::BoomPressure>(rig);
-  check_protection<bus::ArmPressure>(rig);
-  check_protection<bus::BucketPressure>(rig);
-  check_protection<bus::PumpState>(rig);
-  check_protection<bus::ValveState>(rig);
-  check_protection<bus::OperatorCommand>(rig);
+  check_protection<bus::BoomStroke, bus::ArmStroke, bus::BucketStroke, bus::BoomPressure,
+                   bus::ArmPressure, bus::BucketPressure, bus::PumpState, bus::ValveState,
+                   bus::OperatorCommand>(rig);
 }
 
 /// Off by their zeros always, and by what a seed draws beside them.
@@ -206,7 +194,7 @@ TEST(unusable_values_are_neutral) {
   }
 }
 
-TEST(command_reaches_every_spool, Rig rig) {
+TEST(command_reaches_every_spool_and_each_is_told, Rig rig) {
   for (int i = 0; i < 60; ++i) {
     bus::SpoolCommand message;
     message.enable.value = bus::SpoolCommand::Enable::kOn;
@@ -219,6 +207,10 @@ TEST(command_reaches_every_spool, Rig rig) {
   assert_near(travel[kBoom], 0.1, 1e-6);
   assert_near(travel[kArm], -0.15, 1e-6);
   assert_near(travel[kBucket], 0.18, 1e-6);
+  const auto valve = last<bus::ValveState>(rig);
+  assert_near(valve.boom_spool_ratio.value, 0.1, 1e-4);
+  assert_near(valve.arm_spool_ratio.value, -0.15, 1e-4);
+  assert_near(valve.bucket_spool_ratio.value, 0.18, 1e-4);
 }
 
 TEST(flood_does_not_starve_the_command, Rig rig) {
@@ -237,8 +229,7 @@ TEST(silenced_messages_stop, Rig rig) {
   rig.machine.faults().set_silent(bus::ArmStroke::kId, true);
   rig.driver.set_silent(true);
   rig.cycles(10);
-  assert_int_equal(rig.seen.count(bus::ArmStroke::kId), 0);
-  assert_int_equal(rig.seen.count(bus::OperatorCommand::kId), 0);
+  check_seen<bus::ArmStroke, bus::OperatorCommand>(rig, 0);
   assert_int_equal(rig.seen[bus::BoomStroke::kId].size(), 10);
   rig.machine.faults().set_silent(bus::ArmStroke::kId, false);
   rig.cycles(20);
@@ -277,9 +268,7 @@ TEST(operator_follows_the_schedule, Rig rig) {
 /// A station without levers sends none; windows come by turns, of the drives that have one.
 TEST(hands_are_sent_where_they_are, Rig rig) {
   rig.cycles(20);
-  assert_int_equal(rig.seen.count(bus::OperatorAxes::kId), 0);
-  assert_int_equal(rig.seen.count(bus::CommissionDuty::kId), 0);
-  assert_int_equal(rig.seen.count(bus::CommissionWindow::kId), 0);
+  check_seen<bus::OperatorAxes, bus::CommissionDuty, bus::CommissionWindow>(rig, 0);
   OperatorHands hands;
   hands.lever_ratio = {0.2, -0.4, 0.6, -0.8};
   hands.tried_ratio = {0.1, 0.0, -0.3};
@@ -287,8 +276,7 @@ TEST(hands_are_sent_where_they_are, Rig rig) {
   hands.window[2] = StrokeWindow{0.4, 0.5, 0.6};
   rig.driver.set_hands(hands);
   rig.cycles(20);
-  assert_int_equal(rig.seen[bus::OperatorAxes::kId].size(), 10);
-  assert_int_equal(rig.seen[bus::CommissionDuty::kId].size(), 10);
+  check_seen<bus::OperatorAxes, bus::CommissionDuty>(rig, 10);
   const auto axes = last<bus::OperatorAxes>(rig);
   assert_near(axes.boom_or_up_ratio.value, 0.2, 1e-9);
   assert_near(axes.arm_or_forward_ratio.value, -0.4, 1e-9);

@@ -16,8 +16,7 @@ TEST(frames_come_at_their_rates, SwingRig rig) {
   assert_int_equal(rig.seen[bus::SwingState::kId].size(), 200);
   assert_int_equal(rig.seen[bus::SwingValveState::kId].size(), 100);
   assert_int_equal(rig.seen.size(), 13);
-  check_protection<bus::SwingState>(rig);
-  check_protection<bus::SwingValveState>(rig);
+  check_protection<bus::SwingState, bus::SwingValveState>(rig);
   // In the times between those of the pumps, as ValveState.
   assert_int_equal(rig.seen[bus::SwingValveState::kId].front().stamp_us, kCycleUs);
   assert_int_equal(rig.seen[bus::SwingValveState::kId].back().stamp_us,
@@ -32,8 +31,7 @@ TEST(without_the_drive_nothing_is_said_or_heard, Rig rig) {
     assert_true(rig.our_port.send(rig.frame_of(message)));
     rig.send_and_cycle(rig.command(true, 0.5));
   }
-  assert_int_equal(rig.seen.count(bus::SwingState::kId), 0);
-  assert_int_equal(rig.seen.count(bus::SwingValveState::kId), 0);
+  check_seen<bus::SwingState, bus::SwingValveState>(rig, 0);
   assert_int_equal(rig.machine.swing_counters().accepted, 0);
   assert_false(rig.machine.swing_enabled());
 }
@@ -74,25 +72,16 @@ TEST(spool_opens_only_with_both_commands, SwingRig rig) {
 }
 
 TEST(swing_alone_opens_nothing, SwingRig rig) {
-  for (int i = 0; i < 30; ++i) {
-    rig.send_swing(true, 0.5);
-    rig.cycle();
-  }
+  rig.cycles_of(30, [&] { rig.send_swing(true, 0.5); });
   assert_true(rig.machine.swing_enabled() && !rig.machine.spools_enabled());
   assert_near(rig.spool(), 0.0, 0.0);
 }
 
 TEST(silence_of_the_swings_command_is_neutral, SwingRig rig) {
   rig.command_for(30, true, true, 0.5);
-  for (int i = 0; i < 9; ++i) {
-    rig.send_spool(true);
-    rig.cycle();
-  }
+  rig.cycles_of(9, [&] { rig.send_spool(true); });
   assert_near(rig.spool(), 0.5, 1e-3);
-  for (int i = 0; i < 30; ++i) {
-    rig.send_spool(true);
-    rig.cycle();
-  }
+  rig.cycles_of(30, [&] { rig.send_spool(true); });
   assert_int_equal(rig.machine.swing_counters().timeouts, 1);
   assert_true(rig.machine.spools_enabled() && !rig.machine.swing_enabled());
   assert_near(rig.spool(), 0.0, 1e-4);
@@ -106,10 +95,7 @@ TEST(silence_of_the_swings_command_is_neutral, SwingRig rig) {
 
 TEST(silence_of_the_other_command_is_neutral_too, SwingRig rig) {
   rig.command_for(30, true, true, 0.5);
-  for (int i = 0; i < 40; ++i) {
-    rig.send_swing(true, 0.5);
-    rig.cycle();
-  }
+  rig.cycles_of(40, [&] { rig.send_swing(true, 0.5); });
   assert_true(!rig.machine.spools_enabled() && rig.machine.swing_enabled());
   assert_near(rig.spool(), 0.0, 1e-4);
 }

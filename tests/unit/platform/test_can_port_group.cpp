@@ -42,9 +42,7 @@ TEST(without_ports_it_is_closed) {
 TEST(there_is_room_for_four) {
   LoopbackBus bus;
   CanPortGroup group;
-  for (std::size_t i = 0; i < CanPortGroup::kMost; ++i) {
-    assert_true(group.add(bus.attach()));
-  }
+  repeat(CanPortGroup::kMost, [&] { assert_true(group.add(bus.attach())); });
   assert_false(group.add(bus.attach()));
 }
 
@@ -74,9 +72,7 @@ TEST(a_frame_that_one_bus_refuses_is_dropped) {
 TEST(all_are_heard_and_a_flood_starves_nobody) {
   TwoBuses two;
   assert_true(two.group.open());
-  for (int n = 0; n < 10; ++n) {
-    assert_true(two.other[0]->send(frame(0x100)));
-  }
+  repeat(10, [&] { assert_true(two.other[0]->send(frame(0x100))); });
   assert_true(two.other[1]->send(frame(0x200)));
   std::array<CanFrame, 4> frames;
   bool heard_second = false;

@@ -120,9 +120,7 @@ TEST(two_of_them_print_as_two_threads_of_cyclictest) {
 
 TEST(the_first_overflows_are_named_and_the_others_counted) {
   Histogram histogram;
-  for (std::size_t i = 0; i < Histogram::kNotedOverflows + 3; ++i) {
-    histogram.add(5'000'000);
-  }
+  repeat(Histogram::kNotedOverflows + 3, [&] { histogram.add(5'000'000); });
   const std::string text = printed({&histogram});
   assert_non_null(std::strstr(text.c_str(), "# Histogram Overflows: 00067\n"));
   assert_non_null(std::strstr(text.c_str(), "# Thread 0: 00000 00001 00002 "));

@@ -92,9 +92,7 @@ TEST(what_the_queue_lost_is_counted_over_all_sockets) {
     if (!port.open()) {
       skip();
     }
-    for (int i = 0; i < 4000; ++i) {
-      from_bus(raw(1U | CAN_EFF_FLAG));
-    }
+    repeat(4000, [&] { from_bus(raw(1U | CAN_EFF_FLAG)); });
     std::uint64_t taken = 0;
     for (int some = 256; some == 256; taken += static_cast<std::uint64_t>(some)) {
       some = port.receive(frames.data(), 256);
@@ -115,9 +113,7 @@ TEST(a_flood_of_error_frames_is_bounded) {
   if (!port.open()) {
     skip();
   }
-  for (unsigned i = 0; i < 200; ++i) {
-    report(CAN_ERR_PROT);
-  }
+  repeat(200, [&] { report(CAN_ERR_PROT); });
   from_bus(raw(1U | CAN_EFF_FLAG));
   std::array<CanFrame, 256> frames;
   assert_int_equal(port.receive(frames.data(), 256), 0);

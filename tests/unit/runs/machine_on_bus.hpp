@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A digging machine on another bus than ours, whose frames a test spoils.
+/// A digging machine that has not what ours has, and whose frames a test spoils.
 
 #include <string>
 
@@ -13,26 +13,34 @@ namespace graben::test {
 
 inline constexpr int kCycle_ms = 10;
 
-/// The 22 t machine as found, on a shipped bus.
-inline machines::SimulatedExcavator on_bus(const std::string& bus) {
+/// The 22 t machine as found, arranged so.
+inline machines::SimulatedExcavator found(const machines::Scenario& arrangement) {
   runs::DigScenario scenario;
   scenario.errors = "all";
-  scenario.scenario.bus = bus;
+  scenario.scenario = arrangement;
   scenario.scenario.seed = 5;
   return runs::arranged(machines::load_simulated_excavator(machines::find_profile("excavator_22t")),
                         scenario);
 }
 
+/// On a shipped bus.
+inline machines::SimulatedExcavator on_bus(const std::string& bus) {
+  machines::Scenario scenario;
+  scenario.bus = bus;
+  return found(scenario);
+}
+
 struct MachineOnBus {
-  explicit MachineOnBus(const std::string& bus)
-      : machine(on_bus(bus)), rig(machine, machines::dig_start(machine.profile), 1.0) {}
+  explicit MachineOnBus(const std::string& bus) : MachineOnBus(on_bus(bus)) {}
+  explicit MachineOnBus(const machines::SimulatedExcavator& given)
+      : machine(given), rig(machine, machines::dig_start(machine.profile), 1.0) {}
 
   void step() {
     rig.step(now);
     now += runs::DigRig::kPeriod_us;
   }
-  void dig() {
-    while (now < 4 * kSecondUs) {
+  void dig(TimeUs until = 4 * kSecondUs) {
+    while (now < until) {
       step();
     }
     assert_int_equal(status().mode, EcuMode::kActive);

@@ -7,6 +7,7 @@
 #include "app/runs/found_text.hpp"
 #include "app/runs/scenarios.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 using namespace graben::runs;
 
@@ -61,12 +62,7 @@ TEST(wrong_texts_are_refused) {
       {"dead_time=0.51", "dead_time: '0.51'", "0 .. 0.5 s"},
   };
   for (const auto& wrong : cases) {
-    std::string says = "nothing";
-    try {
-      static_cast<void>(found_of(wrong.text));
-    } catch (const std::runtime_error& error) {
-      says = error.what();
-    }
+    const std::string says = test::refusal_of([&] { return found_of(wrong.text); });
     if (says.find(wrong.key) == std::string::npos ||
         says.find(wrong.allowed) == std::string::npos) {
       fail_msg("--found %s: %s", wrong.text, says.c_str());

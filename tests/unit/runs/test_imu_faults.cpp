@@ -2,77 +2,37 @@
 // Faults of the IMUs of a machine that digs: each stops it, in words and in time.
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
-#include "app/runs/dig_run.hpp"
-#include "app/runs/excavator_rig.hpp"
-#include "app/runs/scenarios.hpp"
-#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/runs/machine_on_bus.hpp"
 
 using Rates = dbc::j1939::ARI;
 using Forces = dbc::j1939::ACS;
 
 machines::SimulatedExcavator with_imus() {
-  runs::DigScenario scenario;
-  scenario.errors = "all";
-  scenario.scenario.imus = true;
-  scenario.scenario.seed = 5;
-  return runs::arranged(machines::load_simulated_excavator(machines::find_profile("excavator_22t")),
-                        scenario);
+  machines::Scenario scenario;
+  scenario.imus = true;
+  return test::found(scenario);
 }
 
 /// A machine that has dug for seconds.
-struct Digging {
-  Digging() : machine(with_imus()), rig(machine, machines::dig_start(machine.profile), 1.0) {
-    while (now < runs::kImusLearn_us + 4 * kSecondUs) {
-      step();
-    }
-    assert_int_equal(status().mode, EcuMode::kActive);
-    assert_true(status().stand_in);
+struct Digging : test::MachineOnBus {
+  Digging() : MachineOnBus(with_imus()) {
+    dig(runs::kImusLearn_us + 4 * kSecondUs);
     assert_true(status().joints.known);
   }
 
-  void step() {
-    rig.step(now);
-    now += runs::DigRig::kPeriod_us;
-  }
-  [[nodiscard]] const ExcavatorStatus& status() const { return rig.ecu->outputs().status; }
   [[nodiscard]] std::uint32_t id(std::uint32_t message, int imu) const {
     return (message & ~0xFFU) | machine.profile.imu.mount[static_cast<unsigned>(imu)].address;
   }
-  /// Until it stops; the commands are neutral in that cycle. Returns how long that took.
-  int stops_within(int most_ms) {
-    int time_ms = 0;
-    while (status().mode == EcuMode::kActive && time_ms <= most_ms) {
-      step();
-      time_ms += 10;
-    }
-    print_message("fault %d after %d ms\n", static_cast<int>(status().fault), time_ms);
-    assert_int_equal(status().mode, EcuMode::kFault);
-    assert_false(rig.ecu->outputs().enable);
-    for (const double duty_ratio : rig.ecu->outputs().duty_ratio) {
-      assert_near(duty_ratio, 0.0, 0.0);
-    }
-    return time_ms;
-  }
-  /// From now on the frames of this id are changed on the wire.
-  template <class Change>
-  void change(std::uint32_t frame_id, const Change& change_data) {
-    rig.bus.set_fault_hook([=](CanFrame& frame, const LoopbackPort* from) {
-      return from == nullptr || frame.id != frame_id || change_data(frame);
-    });
-  }
-
-  machines::SimulatedExcavator machine;
-  runs::DigRig rig;
-  TimeUs now = 0;
 };
 
 TEST(silence) {
   Digging dig;
   dig.change(dig.id(Rates::kId, kArm), [](CanFrame&) { return false; });
-  static_cast<void>(dig.stops_within(60));
+  dig.controller_stops_within(60);
   assert_int_equal(dig.status().fault, Fault::kStrokeMissing);
 }
 
@@ -84,7 +44,7 @@ TEST(it_calls_itself_degraded) {
     frame.data = message.encode();
     return true;
   });
-  static_cast<void>(dig.stops_within(20));
+  dig.controller_stops_within(20);
 }
 
 TEST(frozen) {
@@ -98,7 +58,7 @@ TEST(frozen) {
       frame.data = (*last)->data;
       return true;
     });
-    static_cast<void>(dig.stops_within(1500));
+    dig.controller_stops_within(1500);
   }
 }
 
@@ -132,7 +92,7 @@ TEST(a_jump) {
     frame.data = message.encode();
     return true;
   });
-  static_cast<void>(dig.stops_within(6000));
+  dig.controller_stops_within(6000);
 }
 
 TEST(a_bracket_turns) {
@@ -147,5 +107,5 @@ TEST(a_bracket_turns) {
     frame.data = message.encode();
     return true;
   });
-  static_cast<void>(dig.stops_within(1000));
+  dig.controller_stops_within(1000);
 }

@@ -81,9 +81,7 @@ TEST(a_node_that_reboots) {
   m.controller_stops_within(2 * kCycle_ms);
   assert_int_equal(m.status().fault, Fault::kStrokeMissing);
   m.rig.enable_from(m.now + kSecondUs);
-  for (int cycle = 0; cycle < 300; ++cycle) {
-    m.step();
-  }
+  repeat(300, [&] { m.step(); });
   assert_int_equal(starts, 1);
   assert_int_equal(m.status().mode, EcuMode::kActive);
   assert_true(m.rig.plant.spools_enabled());
@@ -134,9 +132,7 @@ TEST(an_encoder_with_an_emergency) {
                       ", node 2 has emergency 5010h (device hardware)");
   m.rig.plant.faults().sold.emergency = 0;
   m.rig.enable_from(m.now + kSecondUs);
-  for (int cycle = 0; cycle < 300; ++cycle) {
-    m.step();
-  }
+  repeat(300, [&] { m.step(); });
   assert_int_equal(m.status().mode, EcuMode::kActive);
 }
 

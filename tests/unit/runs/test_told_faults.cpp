@@ -11,16 +11,13 @@
 #include "app/runs/plant_faults.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 using namespace graben::runs;
 
 std::string refusal(const std::string& text) {
-  try {
-    const PlantFaultSchedule<plant::ExcavatorFaults> schedule(excavator_plant_faults(), {text});
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return {};
+  return graben::test::refusal_of(
+      [&] { return PlantFaultSchedule<plant::ExcavatorFaults>(excavator_plant_faults(), {text}); });
 }
 
 TEST(texts_are_read) {

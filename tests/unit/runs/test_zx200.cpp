@@ -99,9 +99,7 @@ TEST(a_short_lock_is_not_undone) {
   }
   // The operator lets go, and gives it again.
   m.rig.enable_from(m.now + kSecondUs);
-  for (int cycle = 0; cycle < 300; ++cycle) {
-    m.step();
-  }
+  repeat(300, [&] { m.step(); });
   assert_int_equal(m.status().mode, EcuMode::kActive);
   assert_true(m.rig.plant.spools_enabled());
 }
@@ -173,17 +171,13 @@ TEST(a_pilot_that_does_not_follow) {
   assert_int_equal(m.status().fault, Fault::kSpoolStuck);
   static_cast<void>(m.machine_neutral_after(2 * kCycle_ms));
   // No signal says cut: nothing is sent any more, and the machine shuts off by itself.
-  for (int cycle = 0; cycle < 20; ++cycle) {
-    m.step();
-  }
+  repeat(20, [&] { m.step(); });
   bool sent = false;
   m.rig.bus.set_tap([&](const CanFrame& frame) {
     sent = sent || frame.id == zx200::PilotPressureCmd1::kId ||
            frame.id == zx200::MachineSettingCmd::kId;
   });
-  for (int cycle = 0; cycle < 20; ++cycle) {
-    m.step();
-  }
+  repeat(20, [&] { m.step(); });
   assert_false(sent);
 }
 

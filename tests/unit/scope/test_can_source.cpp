@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 
 using nlohmann::json;
 using scope::CanListener;
@@ -239,13 +240,9 @@ TEST(a_state_is_told_once) {
 }
 
 void assert_no_source(const std::vector<std::string>& interfaces, const char* why) {
-  std::string error;
-  try {
-    const CanSource source(interfaces, 500000, &open_pair);
-  } catch (const std::runtime_error& refusal) {
-    error = refusal.what();
-  }
-  assert_string_equal(error.c_str(), why);
+  const std::string said =
+      test::refusal_of([&] { return CanSource(interfaces, 500000, &open_pair); });
+  assert_string_equal(said.c_str(), why);
 }
 
 TEST(what_cannot_be_heard_is_refused) {

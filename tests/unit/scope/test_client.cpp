@@ -145,12 +145,8 @@ TEST(what_is_refused_is_answered) {
   assert_refused(rig, "not \xEF\xBF\xBD that");
   assert_refused(rig, "a value is of another kind");
   assert_refused(rig, "a value is missing");
-  for (int i = 0; i < 3; ++i) {
-    assert_refused(rig, "this is no object");
-  }
-  for (int i = 0; i < 3; ++i) {
-    assert_refused(rig, "this is not JSON");
-  }
+  repeat(3, [&] { assert_refused(rig, "this is no object"); });
+  repeat(3, [&] { assert_refused(rig, "this is not JSON"); });
   assert_next(rig, "-");
   assert_int_equal(rig.script.wishes.size(), 3);
 }
@@ -194,9 +190,7 @@ TEST(who_says_too_much_has_to_wait) {
     rig.say(R"({"do":"run"})");
   }
   assert_false(rig.client.may_speak());
-  for (int i = 0; i < 2 * Client::kBudgetMost; ++i) {
-    rig.client.tick();
-  }
+  repeat(2 * Client::kBudgetMost, [&] { rig.client.tick(); });
   for (int i = 0; i < Client::kBudgetMost; ++i) {
     rig.say(R"({"do":"run"})");
   }

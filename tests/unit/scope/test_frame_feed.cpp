@@ -26,9 +26,7 @@ CanFrame frame(std::uint8_t byte = 0) {
 
 void feed_blocks(FrameFeed& feed, int blocks, int frames_each) {
   for (int i = 0; i < blocks; ++i) {
-    for (int j = 0; j < frames_each; ++j) {
-      feed.append(frame(), 0, "can0");
-    }
+    repeat(frames_each, [&] { feed.append(frame(), 0, "can0"); });
     feed.flush();
   }
 }

@@ -11,6 +11,7 @@
 
 #include "app/machines/missing_file.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
 using scope::LogShow;
@@ -45,13 +46,8 @@ TEST(setup_says_what_it_is) {
 }
 
 void assert_refused(const std::filesystem::path& file, const char* why) {
-  std::string error;
-  try {
-    static_cast<void>(show_of(file));
-  } catch (const std::runtime_error& refusal) {
-    error = refusal.what();
-  }
-  assert_string_equal(error.c_str(), (file.string() + ": " + why).c_str());
+  const std::string said = test::refusal_of([&] { return show_of(file); });
+  assert_string_equal(said.c_str(), (file.string() + ": " + why).c_str());
 }
 
 TEST(a_packed_log_is_unpacked) {

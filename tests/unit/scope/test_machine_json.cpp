@@ -8,6 +8,7 @@
 #include "firmware/dozer/grade_profile.hpp"
 #include "firmware/excavator/motion/field/dig_field.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/refusal.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
 using nlohmann::json;
@@ -272,21 +273,8 @@ TEST(tasks_are_numbered_as_told) {
   assert_true(tasks_of(reports::shared_setup({std::nullopt, told}), "excavator_12t") == told);
 }
 
-std::string error_of(const reports::SetupOptions& options) {
-  try {
-    static_cast<void>(reports::shared_setup(options));
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 void assert_error(const reports::SetupOptions& options, const std::string& words) {
-  const std::string error = error_of(options);
-  if (error.find(words) == std::string::npos) {
-    print_error("'%s' not in '%s'\n", words.c_str(), error.c_str());
-    _fail(__FILE__, __LINE__);
-  }
+  test::expect_refusal([&] { return reports::shared_setup(options); }, words);
 }
 
 TEST(what_is_wrong_is_said) {

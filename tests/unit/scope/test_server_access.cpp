@@ -2,6 +2,7 @@
 /// The server over real sockets: what it gives, and to whom.
 
 #include "app/scope/server/show.hpp"
+#include "tests/unit/refusal.hpp"
 #include "tests/unit/scope/server_rig.hpp"
 #include "tests/unit/scope/temporary_file.hpp"
 
@@ -136,12 +137,7 @@ TEST(a_port_in_use_is_said) {
   const test::TemporaryFile file("x\n");
   scope::LogShow show(file.path(), 500000, json::object());
   const auto error_of = [&](const scope::ServerOptions& options) {
-    try {
-      const scope::ScopeServer server(options, {"page"}, show);
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::refusal_of([&] { return scope::ScopeServer(options, {"page"}, show); });
   };
   assert_has(error_of({"127.0.0.1", rig.port()}), "Address already in use");
   assert_has(error_of({"no.such.name.invalid", 0}), "--host 'no.such.name.invalid'");
