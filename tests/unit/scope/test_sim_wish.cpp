@@ -78,16 +78,18 @@ TEST(more_wishes_than_can_wait) {
 
 TEST(options_that_do_not_fit) {
   const struct {
-    const char *task, *profile, *task_file, *soil, *words;
+    const char* task;
+    std::optional<std::string> profile, task_file;
+    const char *soil, *words;
   } rows[] = {
-      {"plough", "", "", "", "allowed: dig, grade, autodig"},
-      {"grade", "excavator_22t", "", "", "needs a dozer"},
-      {"dig", "dozer_9t", "", "", "needs an excavator"},
-      {"autodig", "excavator_22t", "", "", "swing drive"},
-      {"dig", "", "flatten", "", "of the task autodig alone"},
-      {"grade", "", "", "loam", "of an excavator alone"},
-      {"autodig", "", "", "kim", "of the task dig alone"},
-      {"autodig", "", "", "mud", "sand, loam, clay, stones"},
+      {"plough", {}, {}, "", "allowed: dig, grade, autodig"},
+      {"grade", "excavator_22t", {}, "", "needs a dozer"},
+      {"dig", "dozer_9t", {}, "", "needs an excavator"},
+      {"autodig", "excavator_22t", {}, "", "swing drive"},
+      {"dig", {}, "flatten", "", "of the task autodig alone"},
+      {"grade", {}, {}, "loam", "of an excavator alone"},
+      {"autodig", {}, {}, "kim", "of the task dig alone"},
+      {"autodig", {}, {}, "mud", "sand, loam, clay, stones"},
   };
   for (const auto& row : rows) {
     scope::SimOptions options = options_of(row.task);
