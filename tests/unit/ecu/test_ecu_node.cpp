@@ -49,8 +49,6 @@ struct Dozer {
   }
 };
 
-#define TEST_ON_BOTH_KINDS(name) TEST_OF_EACH(name, Kind, Excavator, Dozer)
-
 constexpr TimeUs kCycleUs = 10'000;
 
 // A port that does what it is told and says what was done to it.
