@@ -58,6 +58,17 @@ struct Valve {
     all_at(valid, duty);
     repeat(CommandHistory::kMostCycles, [&] { assert_false(stuck()); });
   }
+  /// Settled there, and told to close.
+  void close_from(double duty) {
+    settle(duty);
+    sent.duty_ratio = {0.0, 0.0, 0.0};
+  }
+  /// Settled at rest, and its first spool tried.
+  void try_boom(bool tried = true) {
+    settle(0.0);
+    sent.tried = tried;
+    sent.duty_ratio = {0.8, 0.0, 0.0};
+  }
 };
 
 TEST(a_spool_at_its_duty_is_well) {
@@ -116,8 +127,7 @@ TEST(each_spool_is_counted_by_itself, Valve valve) {
 TEST(it_is_given_the_time_to_settle) {
   for (const double open : {0.75, -0.75}) {
     Valve valve;
-    valve.settle(open);
-    valve.sent.duty_ratio = {0.0, 0.0, 0.0};
+    valve.close_from(open);
     assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), cycles_to_find(kStarts, 0.75));
   }
 }
@@ -125,8 +135,7 @@ TEST(it_is_given_the_time_to_settle) {
 /// The dead time is known within 30 %: 1.3 * 0.15 s + 0.03 s + 0.02 s are 24.5 cycles.
 TEST(it_is_given_the_dead_time_too, Valve valve) {
   valve.profile.control.dead_time_s = 0.15;
-  valve.settle(0.75);
-  valve.sent.duty_ratio = {0.0, 0.0, 0.0};
+  valve.close_from(0.75);
   assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), cycles_to_find(25, 0.75));
 }
 
@@ -138,8 +147,7 @@ TEST(it_is_given_what_its_slower_side_needs) {
     for (SaidAnswers& answer : valve.profile.valve.answer) {
       answer.side(extends).dead_time_s = 0.15;
     }
-    valve.settle(0.75);
-    valve.sent.duty_ratio = {0.0, 0.0, 0.0};
+    valve.close_from(0.75);
     assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), cycles_to_find(25, 0.75));
     const auto settle_s = [&](double SaidAnswer::*time, double time_s) {
       ExcavatorProfile profile = valve.profile;
@@ -160,14 +168,12 @@ TEST(it_is_given_what_its_slower_side_needs) {
 /// More than the ring holds is cut to it; no time at all still leaves the age of a frame.
 TEST(the_time_under_way_is_bounded, Valve slow) {
   slow.profile.control.dead_time_s = 5.0;
-  slow.settle(0.75);
-  slow.sent.duty_ratio = {0.0, 0.0, 0.0};
+  slow.close_from(0.75);
   assert_int_equal(slow.cycles_until(Fault::kSpoolStuck),
                    cycles_to_find(CommandHistory::kMostCycles, 0.75));
   Valve quick;
   quick.profile.safety.settle_s = 0.0;
-  quick.settle(0.75);
-  quick.sent.duty_ratio = {0.0, 0.0, 0.0};
+  quick.close_from(0.75);
   assert_int_equal(quick.cycles_until(Fault::kSpoolStuck), cycles_to_find(2, 0.75, 1.0));
 }
 
@@ -288,8 +294,7 @@ TEST(missing_feedback_is_not_judged, Valve valve) {
   assert_int_equal(valve.cycles_until(Fault::kValveNotFollowing), kEchoCycles - kSpoolWrongCycles);
 
   Valve closing;
-  closing.settle(0.75);
-  closing.sent.duty_ratio = {0.0, 0.0, 0.0};
+  closing.close_from(0.75);
   closing.valid.faults.add(Fault::kSpoolMissing);
   for (int n = 0; n < cycles_to_find(kStarts, 0.75) - kSpoolWrongCycles; ++n) {
     assert_true(closing.step().empty());
@@ -330,9 +335,7 @@ TEST(a_spool_may_follow_its_lead) {
 TEST(the_slowest_spool_may_be_tried) {
   for (const bool tried : {true, false}) {
     Valve slow;
-    slow.settle(0.0);
-    slow.sent.tried = tried;
-    slow.sent.duty_ratio = {0.8, 0.0, 0.0};
+    slow.try_boom(tried);
     std::array<double, 2> lag{};
     bool stuck = false;
     for (int n = 0; n < 200; ++n) {
@@ -344,15 +347,11 @@ TEST(the_slowest_spool_may_be_tried) {
     assert_true(stuck != tried);
   }
   Valve stands;
-  stands.settle(0.0);
-  stands.sent.tried = true;
-  stands.sent.duty_ratio = {0.8, 0.0, 0.0};
+  stands.try_boom();
   const int cycles = stands.cycles_until(Fault::kSpoolStuck);
   assert_true(cycles > 45 && cycles < 90);
   Valve valve;  // That is known to be slower still: it is given its own time.
   valve.profile.control.dead_time_s = 0.5;
-  valve.settle(0.0);
-  valve.sent.tried = true;
-  valve.sent.duty_ratio = {0.8, 0.0, 0.0};
+  valve.try_boom();
   assert_true(valve.cycles_until(Fault::kSpoolStuck) > 65);
 }

@@ -18,12 +18,13 @@ const ExcavatorProfile& profile() {
   return machine;
 }
 
-Fault fault_of(const ExcavatorInputs& inputs) {
-  return validate(inputs, profile(), {}, false, kNow).fault;
+test::Validated judged(const ExcavatorInputs& inputs, const ExcavatorProfile& machine = profile()) {
+  return validate(inputs, machine, {}, false, kNow);
 }
+Fault fault_of(const ExcavatorInputs& inputs) { return judged(inputs).fault; }
 
 TEST(complete_inputs_become_a_state) {
-  const test::Validated valid = validate(complete_inputs(kNow), profile(), {}, false, kNow);
+  const test::Validated valid = judged(complete_inputs(kNow));
   assert_int_equal(valid.fault, Fault::kNone);
   assert_true(valid.enable && valid.automatic);
   assert_int_equal(valid.task, Task::kDig);
@@ -49,59 +50,55 @@ TEST(a_second_pump_that_is_not_there) {
   single.pump_count = 1;
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.swash_ratio[1].validity = Validity::kNotAvailable;
-  test::Validated valid = validate(inputs, single, {}, false, kNow);
+  test::Validated valid = judged(inputs, single);
   assert_int_equal(valid.fault, Fault::kNone);
   assert_true(valid.faults.empty());
   assert_near(valid.swash_ratio[1], 0.0, 0.0);
   inputs.swash_ratio[1].validity = Validity::kError;
-  assert_true(validate(inputs, single, {}, false, kNow).faults.empty());
+  assert_true(judged(inputs, single).faults.empty());
   inputs.swash_ratio[0].validity = Validity::kNotAvailable;
-  assert_int_equal(validate(inputs, single, {}, false, kNow).fault, Fault::kSwashMissing);
+  assert_int_equal(judged(inputs, single).fault, Fault::kSwashMissing);
 }
 
 /// Every required signal, each in every state that is not usable, gives its own fault.
 TEST(each_signal_is_required) {
   struct Row {
-    Signal<double>* (*signal)(ExcavatorInputs&);
+    Signal<double>* (*signal)(ExcavatorInputs&, unsigned number);
+    unsigned count;
     Fault fault;
   };
+  using In = ExcavatorInputs;
   const Row rows[] = {
-      {[](ExcavatorInputs& in) { return &in.axis[0].stroke_m; }, Fault::kStrokeMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[1].stroke_m; }, Fault::kStrokeMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[2].stroke_m; }, Fault::kStrokeMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[0].cap_pressure_pa; }, Fault::kPressureMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[1].cap_pressure_pa; }, Fault::kPressureMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[2].cap_pressure_pa; }, Fault::kPressureMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[0].rod_pressure_pa; }, Fault::kPressureMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[1].rod_pressure_pa; }, Fault::kPressureMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[2].rod_pressure_pa; }, Fault::kPressureMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[0].spool_ratio; }, Fault::kSpoolMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[1].spool_ratio; }, Fault::kSpoolMissing},
-      {[](ExcavatorInputs& in) { return &in.axis[2].spool_ratio; }, Fault::kSpoolMissing},
-      {[](ExcavatorInputs& in) { return &in.swash_ratio[0]; }, Fault::kSwashMissing},
-      {[](ExcavatorInputs& in) { return &in.swash_ratio[1]; }, Fault::kSwashMissing},
-      {[](ExcavatorInputs& in) { return &in.engine_speed_radps; }, Fault::kEngineSpeedMissing},
-      {[](ExcavatorInputs& in) { return &in.driver.speed_override_ratio; },
+      {[](In& in, unsigned i) { return &in.axis[i].stroke_m; }, 3, Fault::kStrokeMissing},
+      {[](In& in, unsigned i) { return &in.axis[i].cap_pressure_pa; }, 3, Fault::kPressureMissing},
+      {[](In& in, unsigned i) { return &in.axis[i].rod_pressure_pa; }, 3, Fault::kPressureMissing},
+      {[](In& in, unsigned i) { return &in.axis[i].spool_ratio; }, 3, Fault::kSpoolMissing},
+      {[](In& in, unsigned i) { return &in.swash_ratio[i]; }, 2, Fault::kSwashMissing},
+      {[](In& in, unsigned) { return &in.engine_speed_radps; }, 1, Fault::kEngineSpeedMissing},
+      {[](In& in, unsigned) { return &in.driver.speed_override_ratio; }, 1,
        Fault::kOperatorMissing},
   };
   for (const Row& row : rows) {
-    for (const Validity validity : {Validity::kNotReceived, Validity::kNotAvailable,
-                                    Validity::kError, Validity::kOutOfRange}) {
-      ExcavatorInputs inputs = complete_inputs(kNow);
-      row.signal(inputs)->validity = validity;
-      assert_int_equal(fault_of(inputs), row.fault);
-    }
-    ExcavatorInputs old = complete_inputs(kNow);
-    row.signal(old)->stamp_us = kNow - 50 * kMillisecondUs;
-    assert_int_equal(fault_of(old), row.fault);
-    row.signal(old)->stamp_us = kNow - 45 * kMillisecondUs;
-    assert_int_equal(fault_of(old), Fault::kNone);
-    row.signal(old)->stamp_us -= 1;
-    assert_int_equal(fault_of(old), row.fault);
-    for (const TimeUs wrong :
-         {kNow + 1, std::numeric_limits<TimeUs>::min(), std::numeric_limits<TimeUs>::max()}) {
-      row.signal(old)->stamp_us = wrong;
-      assert_int_equal(fault_of(old), row.fault);
+    for (unsigned number = 0; number < row.count; ++number) {
+      const auto fault_with = [&](const auto& spoil) {
+        ExcavatorInputs inputs = complete_inputs(kNow);
+        spoil(*row.signal(inputs, number));
+        return fault_of(inputs);
+      };
+      for (const Validity validity : {Validity::kNotReceived, Validity::kNotAvailable,
+                                      Validity::kError, Validity::kOutOfRange}) {
+        assert_int_equal(fault_with([&](auto& signal) { signal.validity = validity; }), row.fault);
+      }
+      const TimeUs oldest = kNow - 45 * kMillisecondUs;
+      const auto fault_at = [&](TimeUs stamp_us) {
+        return fault_with([&](auto& signal) { signal.stamp_us = stamp_us; });
+      };
+      assert_int_equal(fault_at(oldest), Fault::kNone);
+      for (const TimeUs wrong :
+           {kNow - 50 * kMillisecondUs, oldest - 1, kNow + 1, std::numeric_limits<TimeUs>::min(),
+            std::numeric_limits<TimeUs>::max()}) {
+        assert_int_equal(fault_at(wrong), row.fault);
+      }
     }
   }
 }
@@ -118,7 +115,7 @@ TEST(a_value_that_is_no_number_is_missing) {
 TEST(enable_must_be_fresh) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.driver.enable.stamp_us = kNow - 60 * kMillisecondUs;
-  const test::Validated stale = validate(inputs, profile(), {}, false, kNow);
+  const test::Validated stale = judged(inputs);
   assert_false(stale.enable);
   assert_int_equal(stale.fault, Fault::kOperatorMissing);
 }
@@ -136,7 +133,7 @@ TEST(the_operator_must_be_whole) {
   for (const auto& lose : losses) {
     ExcavatorInputs inputs = complete_inputs(kNow);
     lose(inputs.driver);
-    const test::Validated valid = validate(inputs, profile(), {}, false, kNow);
+    const test::Validated valid = judged(inputs);
     assert_int_equal(valid.fault, Fault::kOperatorMissing);
     assert_false(valid.automatic);
     assert_int_equal(valid.task, Task::kNone);
@@ -149,22 +146,22 @@ TEST(what_the_operator_gives_is_read) {
   inputs.driver.enable.value = false;
   inputs.driver.mode.value = OperatorMode::kManual;
   inputs.driver.speed_override_ratio.value = 1.5;
-  const test::Validated manual = validate(inputs, profile(), {}, false, kNow);
+  const test::Validated manual = judged(inputs);
   assert_int_equal(manual.fault, Fault::kNone);
   assert_false(manual.enable);
   assert_false(manual.automatic);
   assert_near(manual.speed_override_ratio, 1.0, 0.0);
   inputs.driver.speed_override_ratio.value = -0.5;
-  assert_near(validate(inputs, profile(), {}, false, kNow).speed_override_ratio, 0.0, 0.0);
+  assert_near(judged(inputs).speed_override_ratio, 0.0, 0.0);
 }
 
 /// The echo belongs to the spools' frame.
 TEST(the_valves_echo_is_required) {
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.valve_enabled.value = true;
-  assert_true(validate(inputs, profile(), {}, false, kNow).valve_enabled);
+  assert_true(judged(inputs).valve_enabled);
   inputs.valve_enabled.stamp_us = kNow - 50 * kMillisecondUs;
-  const test::Validated stale = validate(inputs, profile(), {}, false, kNow);
+  const test::Validated stale = judged(inputs);
   assert_int_equal(stale.fault, Fault::kSpoolMissing);
   assert_false(stale.valve_enabled);
   inputs.valve_enabled = test::fresh(true, kNow);
@@ -189,7 +186,7 @@ TEST(strokes_outside_their_cylinder_are_implausible) {
   const double most = profile().geometry.cylinder[kBucket].stroke_m;
   ExcavatorInputs inputs = complete_inputs(kNow);
   inputs.axis[kBucket].stroke_m.value = most + 0.002;  // A worn encoder at the stroke's end.
-  const test::Validated biased = validate(inputs, profile(), {}, false, kNow);
+  const test::Validated biased = judged(inputs);
   assert_int_equal(biased.fault, Fault::kNone);
   assert_near(biased.drive[kBucket].stroke_m, most, 0.0);
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
@@ -203,7 +200,7 @@ TEST(strokes_outside_their_cylinder_are_implausible) {
     }
   }
   inputs.axis[kBucket].stroke_m.value = -0.002;
-  assert_near(validate(inputs, profile(), {}, false, kNow).drive[kBucket].stroke_m, 0.0, 0.0);
+  assert_near(judged(inputs).drive[kBucket].stroke_m, 0.0, 0.0);
 }
 
 /// Each of its own; no pressure is below nothing because of it, and one that is stays so.
@@ -213,7 +210,7 @@ TEST(zeros_are_taken_off) {
   machine.sensor_zero.cap_pa = {1e6, -0.5e6, 5e6};
   machine.sensor_zero.rod_pa = {0.25e6, 4e6, -1e6};
   const ExcavatorInputs inputs = complete_inputs(kNow);
-  const test::Validated valid = validate(inputs, machine, {}, false, kNow);
+  const test::Validated valid = judged(inputs, machine);
   assert_int_equal(valid.fault, Fault::kNone);
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     const double shown_m = inputs.axis[axis].stroke_m.value;
@@ -230,10 +227,10 @@ TEST(zeros_are_taken_off) {
 /// Levers and duties, all in their places, and at rest where they are.
 TEST(what_the_hands_do_is_read) {
   ExcavatorInputs inputs = complete_inputs(kNow);
-  test::Validated valid = validate(inputs, profile(), {}, false, kNow);
+  test::Validated valid = judged(inputs);
   assert_true(valid.hands_rest());
   inputs.lever_ratio = test::fresh(std::array<double, 4>{0.1, -0.2, 0.3, -0.4}, kNow);
-  valid = validate(inputs, profile(), {}, false, kNow);
+  valid = judged(inputs);
   assert_false(valid.hands_rest());
   for (const double lever : {valid.lever_ratio[0], -0.5 * valid.lever_ratio[1],
                              valid.lever_ratio[2] / 3.0, -0.25 * valid.lever_ratio[3]}) {
@@ -241,7 +238,7 @@ TEST(what_the_hands_do_is_read) {
   }
   inputs.lever_ratio = {};
   inputs.tried_ratio = test::fresh(std::array<double, 3>{0.0, 0.0, -0.3}, kNow);
-  valid = validate(inputs, profile(), {}, false, kNow);
+  valid = judged(inputs);
   assert_false(valid.hands_rest());
   assert_near(valid.tried_ratio[2], -0.3, 0.0);
 }
@@ -292,17 +289,17 @@ TEST(windows_hold_for_a_second) {
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     ExcavatorInputs inputs = complete_inputs(kNow);
     inputs.window[axis] = test::fresh(StrokeWindow{0.1, 0.2, 0.3}, kNow - kSecondUs);
-    test::Validated valid = validate(inputs, profile(), {}, false, kNow);
+    test::Validated valid = judged(inputs);
     for (unsigned i = 0; i < kAxisCount; ++i) {
       assert_near(valid.window[i].least_m, i == axis ? 0.1 : 0.0, 0.0);
       assert_near(valid.window[i].most_m, i == axis ? 0.2 : 0.0, 0.0);
       assert_near(valid.window[i].most_mps, i == axis ? 0.3 : 0.0, 0.0);
     }
     inputs.window[axis].stamp_us -= 1;
-    assert_near(validate(inputs, profile(), {}, false, kNow).window[axis].most_mps, 0.0, 0.0);
+    assert_near(judged(inputs).window[axis].most_mps, 0.0, 0.0);
     inputs.window[axis].stamp_us = kNow;
     inputs.window[axis].validity = Validity::kNotAvailable;
-    assert_near(validate(inputs, profile(), {}, false, kNow).window[axis].most_mps, 0.0, 0.0);
+    assert_near(judged(inputs).window[axis].most_mps, 0.0, 0.0);
   }
 }
 

@@ -83,24 +83,21 @@ TEST(a_value_out_of_range_slows) {
 }
 
 TEST(all_else_that_is_lost_stops) {
-  ExcavatorInputs stroke = complete_inputs(kNow);
-  stroke.axis[1].stroke_m.stamp_us = kStale;
-  assert_stops(Fault::kStrokeMissing, stroke);
-  ExcavatorInputs swash = complete_inputs(kNow);
-  swash.swash_ratio[1].stamp_us = kStale;
-  assert_stops(Fault::kSwashMissing, swash);
-  ExcavatorInputs spool = complete_inputs(kNow);
-  spool.axis[2].spool_ratio.stamp_us = kStale;
-  assert_stops(Fault::kSpoolMissing, spool);
-  ExcavatorInputs echo = complete_inputs(kNow);
-  echo.valve_enabled.stamp_us = kStale;
-  assert_stops(Fault::kSpoolMissing, echo);
-  ExcavatorInputs driver = complete_inputs(kNow);
-  driver.driver.task.stamp_us = kStale;
-  assert_stops(Fault::kOperatorMissing, driver);
-  ExcavatorInputs machine = complete_inputs(kNow);
-  machine.same_machine.value = false;
-  assert_stops(Fault::kIdentityMismatch, machine);
+  using In = ExcavatorInputs;
+  const struct {
+    void (*lose)(In&);
+    Fault fault;
+  } rows[] = {{[](In& in) { in.axis[1].stroke_m.stamp_us = kStale; }, Fault::kStrokeMissing},
+              {[](In& in) { in.swash_ratio[1].stamp_us = kStale; }, Fault::kSwashMissing},
+              {[](In& in) { in.axis[2].spool_ratio.stamp_us = kStale; }, Fault::kSpoolMissing},
+              {[](In& in) { in.valve_enabled.stamp_us = kStale; }, Fault::kSpoolMissing},
+              {[](In& in) { in.driver.task.stamp_us = kStale; }, Fault::kOperatorMissing},
+              {[](In& in) { in.same_machine.value = false; }, Fault::kIdentityMismatch}};
+  for (const auto& row : rows) {
+    ExcavatorInputs inputs = complete_inputs(kNow);
+    row.lose(inputs);
+    assert_stops(row.fault, inputs);
+  }
 }
 
 /// What only slows does not hide what stops, whichever comes first.

@@ -36,6 +36,17 @@ struct Link {
     return e2e_check(kConfig, state, payload, now);
   }
   void wait(TimeUs time_us) { now += time_us; }
+  // Takes these one after the other, each with its result.
+  void expect(std::uint8_t first, std::initializer_list<E2eCheck> checks) {
+    for (const E2eCheck check : checks) {
+      assert_int_equal(take(first), check);
+      first = e2e_next_counter(first);
+    }
+  }
+  // Two frames of this counter and the next begin, the third is accepted.
+  void expect_synchronising(std::uint8_t first) {
+    expect(first, {E2eCheck::kSynchronising, E2eCheck::kSynchronising, E2eCheck::kOk});
+  }
 };
 
 inline Link synchronised_at(std::uint8_t counter) {

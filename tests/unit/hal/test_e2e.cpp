@@ -58,16 +58,12 @@ TEST(third_good_frame_is_the_first_accepted) {
     Link link;
     assert_false(link.state.synchronised);
     assert_int_equal(e2e_status(kConfig, link.state, link.now), E2eCheck::kNoNewData);
-    std::uint8_t counter = start;
-    assert_int_equal(link.take(counter), E2eCheck::kSynchronising);
-    counter = e2e_next_counter(counter);
-    assert_int_equal(link.take(counter), E2eCheck::kSynchronising);
-    counter = e2e_next_counter(counter);
-    assert_int_equal(link.take(counter), E2eCheck::kOk);
-    for (int i = 0; i < 40; ++i) {
+    link.expect_synchronising(start);
+    auto counter = static_cast<std::uint8_t>((start + 2) % 15);
+    repeat(40, [&] {
       counter = e2e_next_counter(counter);
       assert_int_equal(link.take(counter), E2eCheck::kOk);
-    }
+    });
   }
 }
 
@@ -78,17 +74,14 @@ TEST(wrong_crc_breaks_the_run_of_synchronisation) {
   (void)link.take(0);
   (void)link.take(1);
   assert_int_equal(link.take(bad), E2eCheck::kWrongCrc);
-  assert_int_equal(link.take(3), E2eCheck::kSynchronising);
-  assert_int_equal(link.take(4), E2eCheck::kSynchronising);
-  assert_int_equal(link.take(5), E2eCheck::kOk);
+  link.expect_synchronising(3);
 }
 
 TEST(synchronising_restarts, Link repeated) {
   (void)repeated.take(0);
   (void)repeated.take(1);
   assert_int_equal(repeated.take(1), E2eCheck::kRepeated);
-  assert_int_equal(repeated.take(2), E2eCheck::kSynchronising);
-  assert_int_equal(repeated.take(3), E2eCheck::kOk);
+  repeated.expect(2, {E2eCheck::kSynchronising, E2eCheck::kOk});
 
   for (unsigned delta = 2; delta < 15; ++delta) {
     Link skipped;
@@ -96,17 +89,14 @@ TEST(synchronising_restarts, Link repeated) {
     (void)skipped.take(1);
     const auto counter = static_cast<std::uint8_t>((1 + delta) % 15);
     assert_int_equal(skipped.take(counter), E2eCheck::kWrongSequence);
-    assert_int_equal(skipped.take(e2e_next_counter(counter)), E2eCheck::kSynchronising);
-    assert_int_equal(skipped.take(e2e_next_counter(e2e_next_counter(counter))), E2eCheck::kOk);
+    skipped.expect(e2e_next_counter(counter), {E2eCheck::kSynchronising, E2eCheck::kOk});
   }
 
   Link invalid;
   (void)invalid.take(0);
   (void)invalid.take(1);
   assert_int_equal(invalid.take(15), E2eCheck::kWrongSequence);
-  assert_int_equal(invalid.take(2), E2eCheck::kSynchronising);
-  assert_int_equal(invalid.take(3), E2eCheck::kSynchronising);
-  assert_int_equal(invalid.take(4), E2eCheck::kOk);
+  invalid.expect_synchronising(2);
 }
 
 TEST(synchronised_by_delta) {
@@ -125,6 +115,12 @@ TEST(synchronised_by_delta) {
   }
 }
 
+void assert_same(const E2eState& state, const E2eState& before) {
+  assert_int_equal(state.last_counter, before.last_counter);
+  assert_int_equal(state.last_crc, before.last_crc);
+  assert_int_equal(state.last_good_us, before.last_good_us);
+}
+
 TEST(a_late_frame_changes_nothing) {
   for (const unsigned delta : {13U, 14U}) {
     for (std::uint8_t last = 0; last < 15; ++last) {
@@ -132,9 +128,7 @@ TEST(a_late_frame_changes_nothing) {
       const E2eState before = link.state;
       assert_int_equal(link.take(static_cast<std::uint8_t>((last + delta) % 15)),
                        E2eCheck::kWrongSequence);
-      assert_int_equal(link.state.last_counter, before.last_counter);
-      assert_int_equal(link.state.last_crc, before.last_crc);
-      assert_int_equal(link.state.last_good_us, before.last_good_us);
+      assert_same(link.state, before);
       assert_int_equal(link.take(e2e_next_counter(last)), E2eCheck::kOk);
     }
   }
@@ -166,8 +160,7 @@ TEST(the_same_counter_with_other_data_is_a_conflict) {
   assert_false(e2e_accepted(E2eCheck::kConflict));
   assert_true(link.state.synchronised);
   assert_int_equal(link.state.last_counter, 5);
-  assert_int_equal(link.state.last_crc, before.last_crc);
-  assert_int_equal(link.state.last_good_us, before.last_good_us);
+  assert_same(link.state, before);
   assert_int_equal(link.take(5), E2eCheck::kRepeated);  // still the accepted one
   assert_int_equal(link.take(6), E2eCheck::kOk);
   assert_int_equal(link.take(6), E2eCheck::kRepeated);
@@ -178,23 +171,19 @@ TEST(the_same_counter_with_other_data_is_a_conflict) {
   assert_int_equal(starting.take(other_frame(1)), E2eCheck::kSynchronising);
   assert_int_equal(starting.take(1), E2eCheck::kConflict);
   assert_int_equal(starting.take(other_frame(1)), E2eCheck::kRepeated);
-  assert_int_equal(starting.take(2), E2eCheck::kSynchronising);
-  assert_int_equal(starting.take(3), E2eCheck::kOk);
+  starting.expect(2, {E2eCheck::kSynchronising, E2eCheck::kOk});
 
   Link again;
   (void)again.take(other_frame(0));
   (void)again.take(other_frame(1));
   assert_int_equal(again.take(1), E2eCheck::kConflict);
-  assert_int_equal(again.take(2), E2eCheck::kSynchronising);
-  assert_int_equal(again.take(3), E2eCheck::kOk);
+  again.expect(2, {E2eCheck::kSynchronising, E2eCheck::kOk});
 
   // After the run was broken the counter starts anywhere, there too.
   Link broken;
   (void)broken.take(1);
   (void)broken.take(E2ePayload{1});
-  assert_int_equal(broken.take(1), E2eCheck::kSynchronising);
-  assert_int_equal(broken.take(2), E2eCheck::kSynchronising);
-  assert_int_equal(broken.take(3), E2eCheck::kOk);
+  broken.expect_synchronising(1);
 }
 
 // Changes of one byte take the CRC through all its values, above and below the last one's.
@@ -272,14 +261,11 @@ TEST(a_fast_sender_is_followed) {
 TEST(after_a_wrong_sequence_three_are_needed) {
   Link link = synchronised_at(2);
   assert_int_equal(link.take(9), E2eCheck::kWrongSequence);  // the first of three
-  assert_int_equal(link.take(10), E2eCheck::kSynchronising);
-  assert_int_equal(link.take(11), E2eCheck::kOk);
+  link.expect(10, {E2eCheck::kSynchronising, E2eCheck::kOk});
 
   Link invalid = synchronised_at(2);
   assert_int_equal(invalid.take(15), E2eCheck::kWrongSequence);
-  assert_int_equal(invalid.take(3), E2eCheck::kSynchronising);
-  assert_int_equal(invalid.take(4), E2eCheck::kSynchronising);
-  assert_int_equal(invalid.take(5), E2eCheck::kOk);
+  invalid.expect_synchronising(3);
 }
 
 TEST(wrong_crc_keeps_synchronisation) {
@@ -299,9 +285,7 @@ TEST(silence_needs_three) {
 
   Link silent = synchronised_at(2);
   silent.wait(3 * kCycleUs + 1);
-  assert_int_equal(silent.take(3), E2eCheck::kSynchronising);
-  assert_int_equal(silent.take(4), E2eCheck::kSynchronising);
-  assert_int_equal(silent.take(5), E2eCheck::kOk);
+  silent.expect_synchronising(3);
   silent.wait(4 * kCycleUs + 1);
   assert_int_equal(e2e_status(kConfig, silent.state, silent.now), E2eCheck::kNoNewData);
 
@@ -310,9 +294,7 @@ TEST(silence_needs_three) {
   (void)halting.take(0);
   (void)halting.take(1);
   halting.wait(4 * kCycleUs);
-  assert_int_equal(halting.take(2), E2eCheck::kSynchronising);
-  assert_int_equal(halting.take(3), E2eCheck::kSynchronising);
-  assert_int_equal(halting.take(4), E2eCheck::kOk);
+  halting.expect_synchronising(2);
 }
 
 TEST(bad_frames_alone_are_no_data, Link link) {
