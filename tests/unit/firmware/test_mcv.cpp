@@ -149,6 +149,12 @@ TEST(back_flow_keeps_its_offset) {
               test::excavator().profile.valve.spool[kBoom].force_offset_n, 1.0);
 }
 
+void assert_closed(const McvSolution& solution) {
+  for (const double spool : solution.point.spool_m) {
+    assert_near(spool, 0.0, 0.0);
+  }
+}
+
 TEST(a_load_too_heavy_is_infeasible) {
   McvInput input = light_load(0.1, 0.1, 0.1);
   input.cap_pressure_pa[kBoom] = 60e6;
@@ -157,26 +163,20 @@ TEST(a_load_too_heavy_is_infeasible) {
   assert_int_equal(solution.limit.kind, LimitKind::kBackFlow);
   assert_int_equal(solution.limit.index, kBoom);
   assert_near(solution.point.lambda, 0.0, 0.0);
-  for (const double spool : solution.point.spool_m) {
-    assert_near(spool, 0.0, 0.0);
-  }
+  assert_closed(solution);
 }
 
 TEST(at_rest_everything_stays_closed) {
   const McvSolution solution = solve_mcv(kim(), light_load(0.0, 0.0, 0.0), McvPolicy::kAlgorithm1);
   assert_int_equal(solution.status, SolveStatus::kOk);
-  for (const double spool : solution.point.spool_m) {
-    assert_near(spool, 0.0, 0.0);
-  }
+  assert_closed(solution);
 }
 
 void check_safe(const McvSolution& solution, McvDefect defect) {
   assert_int_equal(solution.status, SolveStatus::kBadInput);
   assert_int_equal(solution.defect.defect, defect);
   assert_near(solution.point.lambda, 0.0, 0.0);
-  for (const double spool : solution.point.spool_m) {
-    assert_near(spool, 0.0, 0.0);
-  }
+  assert_closed(solution);
 }
 
 template <class Break>

@@ -23,6 +23,13 @@ void assert_cap(const VelocityCap& cap, double factor, LimitKind kind, int index
   assert_int_equal(cap.limit.index, index);
 }
 
+FenceSet one(const Fence& fence) {
+  FenceSet fences;
+  fences.count = 1;
+  fences.fence[0] = fence;
+  return fences;
+}
+
 /// 12 t: gain 2 /s, 0.5 m/s2; slack 0.05 mm.
 TEST(cylinder_ends) {
   const DriveVector middle(0.475, 0.565, 0.4375, 0.0);
@@ -92,9 +99,7 @@ TEST(fences_hold_the_point_that_is_nearest) {
 TEST(a_wall_holds_the_swing) {
   const DriveVector then(0.475, 0.565, 0.4375, 0.3);
   const Eigen::Vector3d teeth_m = machine().teeth(then).position_m;
-  FenceSet fences;
-  fences.count = 1;
-  fences.fence[0] = {Eigen::Vector3d::UnitY(), teeth_m.y() + 0.05, FenceGuard::kTeeth};
+  FenceSet fences = one({Eigen::Vector3d::UnitY(), teeth_m.y() + 0.05, FenceGuard::kTeeth});
   const double closing_mps = 0.4 * teeth_m.x();
   assert_cap(cap(then, {0.0, 0.0, 0.0, 0.4}, fences),
              std::min(2.0 * 0.0502, std::sqrt(2.0 * 0.25 * 0.0502)) / closing_mps,
@@ -139,9 +144,7 @@ TEST(it_stops_at_the_margin) {
 TEST(beyond_a_fence_only_what_leads_back_moves) {
   const DriveVector then(0.475, 0.565, 0.4375, 0.3);
   const double pin_m = machine().points(then).at(MachinePoint::kArmPin).position_m.z();
-  FenceSet fences;
-  fences.count = 1;
-  fences.fence[0] = {Eigen::Vector3d::UnitZ(), pin_m - 0.5, FenceGuard::kMachine};
+  FenceSet fences = one({Eigen::Vector3d::UnitZ(), pin_m - 0.5, FenceGuard::kMachine});
   const auto held = [&](const DriveVector& velocity) {
     return test::motion_cap(machine().profile, machine().kinematics, fences, then, velocity);
   };
@@ -167,9 +170,7 @@ TEST(beyond_a_fence_only_what_leads_back_moves) {
 TEST(its_own_momentum_counts) {
   const DriveVector then(0.475, 0.565, 0.4375, 0.3);
   const Eigen::Vector3d teeth_m = machine().teeth(then).position_m;
-  FenceSet fences;
-  fences.count = 1;
-  fences.fence[0] = {Eigen::Vector3d::UnitY(), teeth_m.y() + 0.5, FenceGuard::kTeeth};
+  FenceSet fences = one({Eigen::Vector3d::UnitY(), teeth_m.y() + 0.5, FenceGuard::kTeeth});
   const double lever_m = machine().profile.swing.lever_m;
   const ExcavatorBank bank = excavator_bank(machine().profile);
   const auto factor = [&](double radps) {
@@ -198,9 +199,7 @@ Slide slide_on_design(double speed_mps, bool late) {
                       machine().profile.line.acceleration_mps2};
   request.speed_mps = speed_mps;
   const LinePlan plan = plan_line(machine().kinematics, machine().limits, request).plan;
-  FenceSet fences;
-  fences.count = 1;
-  fences.fence[0] = DesignPlane{}.fence();
+  const FenceSet fences = one(DesignPlane{}.fence());
   test::ReplayedDrives drives(plan_state(machine().kinematics, plan, 0.0).by_share.value, late);
   Slide slide;
   double time_s = 0.0;

@@ -166,6 +166,14 @@ struct OneMode {
              flow + turn.cosine * beyond + turn.speed_of_balance_ps * balance,
              turn.cosine * balance - turn.travel_of_speed_s * beyond - load_m};
   }
+  [[nodiscard]] OilSeen seen(double asked_mps) const {
+    OilSeen seen;
+    seen.asked_mps[0] = asked_mps;
+    seen.stroke_m[0] = state[0];
+    seen.force_n[0] = state[2];
+    seen.force_known = true;
+    return seen;
+  }
 };
 
 /// Both modes alike and not coupled, so that one is looked at.
@@ -188,12 +196,7 @@ double left_of_a_push_m(double assumed_radps, double true_radps, int late_cycles
   double asked_mps = 0.0;
   double most_m = 0.0;
   for (int n = 0; n < 400; ++n) {
-    OilSeen seen;
-    seen.asked_mps[0] = asked_mps;
-    seen.stroke_m[0] = plant.state[0];
-    seen.force_n[0] = plant.state[2];
-    seen.force_known = true;
-    next_oil(gains, modes, seen, n > 0, true, state);
+    next_oil(gains, modes, plant.seen(asked_mps), n > 0, true, state);
     asked_mps = oil_correction_mps(gains, modes, state, state.travel_m)[0];
     plant.step(asked_mps, n > 20 ? -kPush_m : 0.0);
     most_m = n > 300 ? std::max(most_m, std::abs(plant.state[0])) : most_m;
@@ -226,12 +229,7 @@ TEST(a_flow_error_is_learnt) {
   OneMode plant{20.0, 0.018, 0};
   OilState state;
   for (int n = 0; n < 600; ++n) {
-    OilSeen seen;
-    seen.asked_mps[0] = 0.0;
-    seen.stroke_m[0] = plant.state[0];
-    seen.force_n[0] = plant.state[2];
-    seen.force_known = true;
-    next_oil(gains, modes, seen, n > 0, true, state);
+    next_oil(gains, modes, plant.seen(0.0), n > 0, true, state);
     plant.step(0.01, 0.0);
   }
   assert_near(state.flow_error_mps[0], 0.01, 5e-4);
@@ -310,12 +308,12 @@ TEST(one_late_side_leaves_it_to_the_servo) {
   };
   for (const bool extends : {true, false}) {
     for (const int drive : {kBoom, kArm}) {
-      assert_true(quick(drive, extends, &SaidAnswer::dead_time_s, 0.05));
-      assert_false(quick(drive, extends, &SaidAnswer::dead_time_s, 0.051));
-      assert_true(quick(drive, extends, &SaidAnswer::lag_s, 0.1));
-      assert_false(quick(drive, extends, &SaidAnswer::lag_s, 0.101));
-      assert_true(quick(drive, extends, &SaidAnswer::spool_time_constant_s, 0.045));
-      assert_false(quick(drive, extends, &SaidAnswer::spool_time_constant_s, 0.046));
+      for (const auto& [time, most_s] : {std::pair{&SaidAnswer::dead_time_s, 0.05},
+                                         {&SaidAnswer::lag_s, 0.1},
+                                         {&SaidAnswer::spool_time_constant_s, 0.045}}) {
+        assert_true(quick(drive, extends, time, most_s));
+        assert_false(quick(drive, extends, time, most_s + 0.001));
+      }
     }
     assert_true(quick(kBucket, extends, &SaidAnswer::dead_time_s, 0.2));
   }

@@ -28,11 +28,15 @@ DriveVector beside() {
   return drives;
 }
 
-void assert_neutral(const ExcavatorOutputs& outputs) {
-  assert_false(outputs.enable);
+void assert_closed(const ExcavatorOutputs& outputs) {
   for (const double duty : outputs.duty_ratio) {
     assert_near(duty, 0.0, 0.0);
   }
+}
+
+void assert_neutral(const ExcavatorOutputs& outputs) {
+  assert_false(outputs.enable);
+  assert_closed(outputs);
 }
 
 bool steps_on(const TaskProgress& at) { return at.kind == StepKind::kDig && at.share > 0.3; }
@@ -96,9 +100,7 @@ TEST(a_program_runs_to_its_end) {
   assert_true(
       (machine().teeth(running.drives.value()).position_m - machine().teeth(dig().end).position_m)
           .norm() < 2e-3);
-  for (const double duty : running.outputs.duty_ratio) {
-    assert_near(duty, 0.0, 0.0);
-  }
+  assert_closed(running.outputs);
 }
 
 TEST(an_unknown_number_is_refused) {
@@ -250,9 +252,7 @@ TEST(at_override_0_it_waits) {
   assert_near(running.outputs.status.progress.share, share, 0.0);
   assert_true((running.drives.value() - stood).norm() < 2e-3);
   // Nothing is corrected either: no spool opens, whatever a drive owes.
-  for (const double duty : running.outputs.duty_ratio) {
-    assert_near(duty, 0.0, 0.0);
-  }
+  assert_closed(running.outputs);
   running.driver.speed_override_ratio.value = 1.0;
   running.run_until([](const TaskProgress& at) { return at.kind == StepKind::kSwing; });
 }

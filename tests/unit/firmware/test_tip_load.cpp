@@ -189,17 +189,16 @@ TEST(not_known, LoadWorld world) {
   assert_true(world.told().known);
   const LoadTerms before = world.observer.terms;
   LoadSeen seen;
-  next_load(LoadWorld::machine(), seen, StepKind::kReturnToDig, 0.5, kHigh, 0.01, true,
-            world.observer);
-  assert_false(world.told().known);
-  assert_false(world.told().payload_known);
-  seen.known = true;
-  seen.force_n[kArm] = std::numeric_limits<double>::quiet_NaN();
-  for (int n = 0; n < 30; ++n) {
+  const auto next = [&] {
     next_load(LoadWorld::machine(), seen, StepKind::kReturnToDig, 0.5, kHigh, 0.01, true,
               world.observer);
     assert_false(world.told().known);
-  }
+  };
+  next();
+  assert_false(world.told().payload_known);
+  seen.known = true;
+  seen.force_n[kArm] = std::numeric_limits<double>::quiet_NaN();
+  repeat(30, next);
   same_terms(before, world.observer.terms);
   world.move(StepKind::kReturnToDig, kOut, kHigh, 6.0);
   assert_true(world.told().known);

@@ -190,15 +190,18 @@ TEST(what_degraded_goes_on_for_a_second, Machine machine) {
   }
 }
 
+/// A cycle that lacks it, and it is back.
+void degrade_once(Machine& machine, Fault fault) {
+  machine.inputs.degraded.add(fault);
+  machine.step();
+  machine.inputs.degraded = {};
+}
+
 /// Several at once are all named, until the last of them has been gone for as long.
 TEST(all_that_degraded_is_named, Machine machine) {
-  machine.inputs.degraded.add(Fault::kPressureMissing);
-  machine.step();
-  machine.inputs.degraded = {};
+  degrade_once(machine, Fault::kPressureMissing);
   machine.run(4);
-  machine.inputs.degraded.add(Fault::kValueOutOfRange);
-  machine.step();
-  machine.inputs.degraded = {};
+  degrade_once(machine, Fault::kValueOutOfRange);
   machine.run(15);
   assert_slowed_by(Fault::kPressureMissing, machine.seen);
   assert_slowed_by(Fault::kValueOutOfRange, machine.seen);
@@ -207,9 +210,7 @@ TEST(all_that_degraded_is_named, Machine machine) {
 
 /// The next motion does not begin slow for what the last one lost.
 TEST(the_end_of_motion_ends_it, Machine machine) {
-  machine.inputs.degraded.add(Fault::kPressureMissing);
-  machine.step();
-  machine.inputs.degraded = {};
+  degrade_once(machine, Fault::kPressureMissing);
   machine.step();
   assert_slowed_by(Fault::kPressureMissing, machine.seen);
   machine.cycle.moving = false;

@@ -26,6 +26,12 @@ struct Sender {
   int count = 0;
 
   void call(TimeUs now) { count = transmitter.frames(outputs, diagnosis, now, out); }
+  // So many cycles from this time on.
+  void cycles(int many, TimeUs from = kStartUs) {
+    for (int n = 0; n < many; ++n) {
+      call(from + n * kPeriodUs);
+    }
+  }
 
   template <class Message>
   const CanFrame* find() const {

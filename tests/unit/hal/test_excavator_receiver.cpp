@@ -10,18 +10,16 @@ using dbc::RawState;
 using ExcavatorFeed = Feed<ExcavatorReceiver>;
 
 TEST(strokes_and_pressures, ExcavatorFeed feed) {
-  const TimeUs boom_us = feed.send(bus::BoomStroke{{1.1, RawState::kValid}});
-  const TimeUs arm_us = feed.send(bus::ArmStroke{{1.2, RawState::kValid}});
-  const TimeUs bucket_us = feed.send(bus::BucketStroke{{1.3, RawState::kValid}});
+  const std::array<TimeUs, 3> stroke_us = {feed.send(bus::BoomStroke{{1.1, RawState::kValid}}),
+                                           feed.send(bus::ArmStroke{{1.2, RawState::kValid}}),
+                                           feed.send(bus::BucketStroke{{1.3, RawState::kValid}})};
   const std::array<TimeUs, 3> pressure_us = {
       feed.send(bus::BoomPressure{{11e6, RawState::kValid}, {12e6, RawState::kValid}}),
       feed.send(bus::ArmPressure{{13e6, RawState::kValid}, {14e6, RawState::kValid}}),
       feed.send(bus::BucketPressure{{15e6, RawState::kValid}, {16e6, RawState::kValid}})};
   const auto& axis = feed.receiver.inputs().axis;
-  assert_signal(axis[0].stroke_m, 1.1, boom_us);
-  assert_signal(axis[1].stroke_m, 1.2, arm_us);
-  assert_signal(axis[2].stroke_m, 1.3, bucket_us);
   for (std::size_t i = 0; i < axis.size(); ++i) {
+    assert_signal(axis[i].stroke_m, 1.1 + 0.1 * static_cast<double>(i), stroke_us[i]);
     assert_signal(axis[i].cap_pressure_pa, 11e6 + 2e6 * static_cast<double>(i), pressure_us[i]);
     assert_signal(axis[i].rod_pressure_pa, 12e6 + 2e6 * static_cast<double>(i), pressure_us[i]);
   }
