@@ -33,6 +33,10 @@ TaskState advance(const TaskProgram& program, const TaskState& state, double lam
   return task_advance(machine().profile.line, program, state, lambda * kCycle_s, kCycle_s, error_m);
 }
 
+TaskState begun(const TaskProgram& program, const DriveVector& now) {
+  return task_start(machine().profile, machine().kinematics, program, now);
+}
+
 TaskAim aim_of(const TaskProgram& program, const TaskState& state) {
   return task_aim(machine().kinematics, program, state);
 }
@@ -132,7 +136,7 @@ TEST(an_error_asks_for_less_pace_and_nan_for_none) {
   // Drives that are only moved have to arrive, no more: steps without a line, and the approach.
   state.step = 1;
   assert_near(wanted_pace(line, task, state, line.move_slow_error_m), 0.5, 1e-12);
-  const TaskState approach = task_start(machine().profile, machine().kinematics, task, task.end);
+  const TaskState approach = begun(task, task.end);
   assert_near(wanted_pace(line, task, approach, line.move_slow_error_m), 0.5, 1e-12);
 }
 
@@ -167,15 +171,10 @@ TEST(the_pace_changes_at_its_rate) {
   assert_near(advance(task, state, 1.0).time_s, 1.0, 0.0);
 }
 
-/// How a step that has come to its end is left.
-struct Left {
-  int cycles = 0;
-  int missed = 0;
-};
-
-/// With the error that `error_m(cycle)` says.
+/// How a step is left that has come to its end with the error that `error_m(cycle)` says. It takes
+/// a cycle more where the sum of periods rounds to just below.
 template <class Error>
-Left left_at_the_end(Error&& error_m) {
+void assert_left(Error&& error_m, int cycles, int missed) {
   const TaskProgram task = program(false);
   TaskState state = at_first_step();
   state.time_s = task.step[0].duration_s() - 0.5 * kCycle_s;
@@ -188,7 +187,8 @@ Left left_at_the_end(Error&& error_m) {
   assert_near(state.settle_s, 0.0, 0.0);
   assert_near(state.calm_s, 0.0, 0.0);
   assert_near(state.time_s, 0.0, 0.0);
-  return {cycle, state.missed};
+  assert_in_range(cycle, cycles, cycles + 1);
+  assert_int_equal(state.missed, missed);
 }
 
 int cycles_of(double time_s) { return static_cast<int>(std::lround(time_s / kCycle_s)); }
@@ -198,29 +198,14 @@ int cycles_of(double time_s) { return static_cast<int>(std::lround(time_s / kCyc
 TEST(a_step_ends_when_it_has_arrived) {
   const int calm = cycles_of(kCalm_s);
   const int most = cycles_of(kArriveMost_s);
-  const auto near_m = [](int) { return 0.9 * kSettled_m; };
-  const auto far_m = [](int) { return 1.1 * kSettled_m; };
-  // A cycle more where the sum of periods rounds to just below.
-  const Left there = left_at_the_end(near_m);
-  assert_in_range(there.cycles, calm, calm + 1);
-  assert_int_equal(there.missed, 0);
-  const Left late = left_at_the_end(far_m);
-  assert_in_range(late.cycles, most, most + 1);
-  assert_int_equal(late.missed, 1);
+  assert_left([](int) { return 0.9 * kSettled_m; }, calm, 0);
+  assert_left([](int) { return 1.1 * kSettled_m; }, most, 1);
   // What swings through its place is not there yet: the count begins anew.
-  const Left swung =
-      left_at_the_end([calm](int cycle) { return (cycle == calm - 2 ? 1.1 : 0.9) * kSettled_m; });
-  assert_in_range(swung.cycles, 2 * calm - 1, 2 * calm);
-  assert_int_equal(swung.missed, 0);
-  const Left rings =
-      left_at_the_end([](int cycle) { return (cycle % 9 == 0 ? 1.1 : 0.9) * kSettled_m; });
-  assert_in_range(rings.cycles, most, most + 1);
-  assert_int_equal(rings.missed, 1);
+  assert_left([calm](int cycle) { return (cycle == calm - 2 ? 1.1 : 0.9) * kSettled_m; },
+              2 * calm - 1, 0);
+  assert_left([](int cycle) { return (cycle % 9 == 0 ? 1.1 : 0.9) * kSettled_m; }, most, 1);
   // One that arrives in time is not missed.
-  const Left slow =
-      left_at_the_end([](int cycle) { return (cycle < 800 ? 4.0 : 0.9) * kSettled_m; });
-  assert_in_range(slow.cycles, 800 + calm, 801 + calm);
-  assert_int_equal(slow.missed, 0);
+  assert_left([](int cycle) { return (cycle < 800 ? 4.0 : 0.9) * kSettled_m; }, 800 + calm, 0);
 }
 
 /// The next step may rely on the last one: far from its end, or nobody knows where, none goes on.
@@ -264,8 +249,7 @@ TEST(how_near_depends_on_what_follows) {
   state.step = 2;
   assert_near(arrival_m(once, state), kMoveArrived_m, 0.0);
   assert_near(arrival_m(again, state), kLineBegins_m, 0.0);
-  assert_near(arrival_m(once, task_start(machine().profile, machine().kinematics, once, once.end)),
-              kLineBegins_m, 0.0);
+  assert_near(arrival_m(once, begun(once, once.end)), kLineBegins_m, 0.0);
   state.step = 1;
   state.time_s = once.step[1].duration_s();
   for (int cycle = 0; cycle <= cycles_of(kCalm_s); ++cycle) {
@@ -316,12 +300,11 @@ TEST(the_approach_leads_to_the_start) {
   DriveVector outside = now;
   outside[kBoom] = -0.001;
   outside[kArm] = 1.131;
-  const DriveVector taken_in =
-      aim_of(task, task_start(machine().profile, machine().kinematics, task, outside)).value;
+  const DriveVector taken_in = aim_of(task, begun(task, outside)).value;
   assert_near(taken_in[kBoom], 0.0, 0.0);
   assert_near(taken_in[kArm], 1.130, 0.0);
   // Where it stands already nothing is waited for.
-  TaskState there = task_start(machine().profile, machine().kinematics, task, task.start);
+  TaskState there = begun(task, task.start);
   assert_near(aim_of(task, there).share, 1.0, 0.0);
   there = advance(task, there, 1.0);
   assert_int_equal(there.phase, TaskPhase::kApproach);

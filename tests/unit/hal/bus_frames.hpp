@@ -179,5 +179,3 @@ struct Feed {
 };
 
 }  // namespace graben::test
-
-#define TEST_ON_BOTH_BUSES(name) TEST_OF_EACH(name, Bus, ExcavatorBus, DozerBus)

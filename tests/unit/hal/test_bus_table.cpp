@@ -37,6 +37,10 @@ struct Bus {
     frame.data[7] = counter++;
     receiver.accept(frame, now);
   }
+  void state_of_a_period(bool locked) {
+    state(locked);
+    pass(5 * kPeriod);
+  }
   void pass(TimeUs time = kPeriod) {
     receiver.finish(now);
     now += time;
@@ -130,18 +134,15 @@ TEST(another_bus_is_not_meant, Bus bus) {
 }
 
 TEST(a_counter_that_stands_still_is_no_news, Bus bus) {
-  bus.state(false);  // Only says where it counts from.
-  bus.pass(5 * kPeriod);
+  bus.state_of_a_period(false);  // Only says where it counts from.
   assert_true(bus.inputs().valve_enabled.validity == Validity::kNotAvailable);
-  bus.state(false);
-  bus.pass(5 * kPeriod);
+  bus.state_of_a_period(false);
   assert_true(bus.inputs().valve_enabled.validity == Validity::kValid);
   assert_true(bus.inputs().valve_enabled.value);
   assert_near(bus.inputs().engine_speed_radps.value, 188.5, 1e-9);
   for (int frame = 0; frame < 3; ++frame) {
     --bus.counter;
-    bus.state(false);
-    bus.pass(5 * kPeriod);
+    bus.state_of_a_period(false);
   }
   bus.pass();
   assert_true(bus.inputs().valve_enabled.validity == Validity::kNotAvailable);
@@ -150,8 +151,7 @@ TEST(a_counter_that_stands_still_is_no_news, Bus bus) {
 }
 
 TEST(a_slow_source_holds_up_to_its_time_out, Bus bus) {
-  bus.state(false);
-  bus.pass(5 * kPeriod);
+  bus.state_of_a_period(false);
   bus.state(false);
   for (int cycle = 0; cycle <= 16; ++cycle) {
     bus.pass();
@@ -164,8 +164,7 @@ TEST(a_slow_source_holds_up_to_its_time_out, Bus bus) {
 }
 
 TEST(a_condition_that_fails_says_disabled, Bus bus) {
-  bus.state(false);
-  bus.pass(5 * kPeriod);
+  bus.state_of_a_period(false);
   bus.state(true);
   bus.pass();
   assert_true(bus.inputs().valve_enabled.validity == Validity::kValid);

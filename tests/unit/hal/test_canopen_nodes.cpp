@@ -50,6 +50,12 @@ struct Bus {
     receiver.finish(now);
     now += time;
   }
+  /// What its position counts as in the next cycle.
+  Validity seen() {
+    position();
+    pass();
+    return stroke().validity;
+  }
   [[nodiscard]] const Signal<double>& stroke() const { return receiver.inputs().axis[0].stroke_m; }
 };
 
@@ -94,17 +100,11 @@ TEST(a_node_that_sleeps_on_is_told_again, Bus bus) {
 }
 
 TEST(only_an_operational_nodes_values_count, Bus bus) {
-  bus.position();
-  bus.pass();
-  assert_true(bus.stroke().validity == Validity::kNotReceived);
+  assert_true(bus.seen() == Validity::kNotReceived);
   bus.says(0x7F);
-  bus.position();
-  bus.pass();
-  assert_true(bus.stroke().validity == Validity::kNotReceived);
+  assert_true(bus.seen() == Validity::kNotReceived);
   bus.says(0x05);
-  bus.position();
-  bus.pass();
-  assert_true(bus.stroke().validity == Validity::kValid);
+  assert_true(bus.seen() == Validity::kValid);
   assert_near(bus.stroke().value, 0.3, 1e-12);
 }
 
@@ -112,51 +112,35 @@ TEST(a_node_that_reboots_is_no_source) {
   for (const std::uint8_t state : {std::uint8_t{0x00}, std::uint8_t{0x7F}, std::uint8_t{0x04}}) {
     Bus bus;
     bus.says(0x05);
-    bus.position();
-    bus.pass();
+    bus.seen();
     bus.says(state);
-    bus.position();
-    bus.pass();
-    assert_true(bus.stroke().validity == Validity::kNotAvailable);
+    assert_true(bus.seen() == Validity::kNotAvailable);
     assert_int_equal(bus.receiver.take_start(bus.now).id, kNode);
     bus.says(0x05);
-    bus.position();
-    bus.pass();
-    assert_true(bus.stroke().validity == Validity::kValid);
+    assert_true(bus.seen() == Validity::kValid);
   }
 }
 
 TEST(a_heartbeat_that_is_lost, Bus bus) {
   bus.says(0x05);
   for (int cycle = 0; cycle <= 25; ++cycle) {
-    bus.position();
-    bus.pass();
-    assert_true(bus.stroke().validity == Validity::kValid);
+    assert_true(bus.seen() == Validity::kValid);
   }
-  bus.position();
-  bus.pass();
-  assert_true(bus.stroke().validity == Validity::kNotAvailable);
+  assert_true(bus.seen() == Validity::kNotAvailable);
 }
 
 /// CiA 301: bytes 0 and 1 the code, 2 the error register. Its values go on, and do not count.
 TEST(an_emergency_makes_values_errors, Bus bus) {
   bus.says(0x05);
-  bus.position();
-  bus.pass();
+  bus.seen();
   bus.take(0x080 + kNode, 8, {0x10, 0x50, 0x01});
-  bus.position();
-  bus.pass();
-  assert_true(bus.stroke().validity == Validity::kError);
+  assert_true(bus.seen() == Validity::kError);
   assert_int_equal(bus.receiver.emergency().id, kNode);
   assert_int_equal(bus.receiver.emergency().code, 0x5010);
   bus.says(0x05);  // Its heartbeat is as always.
-  bus.position();
-  bus.pass();
-  assert_true(bus.stroke().validity == Validity::kError);
+  assert_true(bus.seen() == Validity::kError);
   bus.take(0x080 + kNode, 8, {});
-  bus.position();
-  bus.pass();
-  assert_true(bus.stroke().validity == Validity::kValid);
+  assert_true(bus.seen() == Validity::kValid);
   assert_int_equal(bus.receiver.emergency().id, 0);
 }
 
@@ -175,9 +159,7 @@ TEST(what_is_no_emergency, Bus bus) {
   bus.take(0x080 + kNode, 7, {0x10, 0x50, 0x01});
   bus.take(0x080 + kNode + 1, 8, {0x10, 0x50, 0x01});
   bus.take(0x080, 0, {});  // SYNC.
-  bus.position();
-  bus.pass();
-  assert_true(bus.stroke().validity == Validity::kValid);
+  assert_true(bus.seen() == Validity::kValid);
   assert_int_equal(bus.receiver.emergency().id, 0);
 }
 
@@ -186,9 +168,7 @@ TEST(what_is_no_heartbeat, Bus bus) {
   bus.take(0x700 + kNode, 2, {0x05});
   bus.take(0x700 + kNode + 1, 1, {0x05});
   bus.says(0x85);  // Node guarding's toggle.
-  bus.position();
-  bus.pass();
-  assert_true(bus.stroke().validity == Validity::kNotReceived);
+  assert_true(bus.seen() == Validity::kNotReceived);
   assert_int_equal(bus.receiver.take_start(bus.now).id, 0);
 }
 

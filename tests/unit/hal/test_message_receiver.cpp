@@ -120,17 +120,13 @@ TEST_FOR_EACH(wrong_kind_and_length, Bus, ExcavatorBus, DozerBus) {
     typename Bus::Receiver receiver;
     const TimeUs now = synchronise<Message>(receiver);
     const CanFrame good = frame_of(filled<Message>(2000), 3);
-    CanFrame frame = good;
-    frame.remote = true;
-    refuse(receiver, frame, now, Message::kId, &LinkCounters::wrong_kind);
-    frame = good;
-    frame.fd = true;
-    refuse(receiver, frame, now, Message::kId, &LinkCounters::wrong_kind);
-    frame = good;
-    frame.extended = false;
-    refuse(receiver, frame, now, Message::kId, &LinkCounters::wrong_kind);
+    for (bool CanFrame::*const flag : {&CanFrame::remote, &CanFrame::fd, &CanFrame::extended}) {
+      CanFrame frame = good;
+      frame.*flag = !(frame.*flag);
+      refuse(receiver, frame, now, Message::kId, &LinkCounters::wrong_kind);
+    }
     for (const int length : {0, 7, 9, 64}) {
-      frame = good;
+      CanFrame frame = good;
       frame.length = static_cast<std::uint8_t>(length);
       refuse(receiver, frame, now, Message::kId, &LinkCounters::wrong_length);
     }

@@ -28,8 +28,6 @@ struct Dozer {
   static constexpr std::uint8_t kDbcVersion = dbc::dozer::kDbcVersion;
 };
 
-#define TEST_OF_BOTH_SENDERS(name) TEST_OF_EACH(name, Kind, Excavator, Dozer)
-
 template <class Kind>
 using SenderOf = Sender<typename Kind::Transmitter>;
 

@@ -53,50 +53,45 @@ TEST_FOR_EACH(a_slow_queue_is_seen, Bus, ExcavatorBus, DozerBus) {
   });
 }
 
-// Lost frames, a sender that pauses, one that starts anew; 70 ms in all.
-TEST(what_is_lost_or_begins_anew_is_no_lag) {
+// One message of an excavator's, frame by frame.
+struct Stream {
   using Message = dbc::excavator::BoomStroke;
   ExcavatorReceiver receiver;
   TimeUs now = synchronise<Message>(receiver);
   std::uint8_t counter = 2;
-  const auto next = [&](TimeUs passed_us, unsigned steps) {
-    now += passed_us;
-    counter = static_cast<std::uint8_t>((counter + steps) % kE2eCounterCount);
-    receiver.accept(frame_of(filled<Message>(1000), counter), now);
-    assert_false(receiver.message_faults(now).has(Fault::kStreamLate));
-  };
-  for (int i = 0; i < 20; ++i) {  // two of three are lost
-    next(3 * kCycleUs, 3);
-  }
-  for (int i = 0; i < 6; ++i) {  // it leaves out six cycles
-    next(2 * kCycleUs, 1);
-  }
-  next(50'000, 1);  // a pause, after which it synchronises
-  next(kCycleUs, 1);
-  next(kCycleUs, 1);
-  repeat(6, [&] { next(2 * kCycleUs, 1); });
-  assert_int_equal(receiver.link(Message::kId).wrong_counter, 0);
-}
 
-// A queue that is worked off is fresh again; one that falls silent is no longer late but missing.
-TEST(lag_ends_with_the_queue_or_in_silence) {
-  using Message = dbc::excavator::BoomStroke;
-  ExcavatorReceiver receiver;
-  TimeUs now = synchronise<Message>(receiver);
-  std::uint8_t counter = 2;
-  const auto next = [&](TimeUs passed_us, unsigned steps) {
+  bool is_late(TimeUs passed_us, unsigned steps) {
     now += passed_us;
     counter = static_cast<std::uint8_t>((counter + steps) % kE2eCounterCount);
     receiver.accept(frame_of(filled<Message>(1000), counter), now);
     return receiver.message_faults(now).has(Fault::kStreamLate);
+  }
+};
+
+// Lost frames, a sender that pauses, one that starts anew; 70 ms in all.
+TEST(what_is_lost_or_begins_anew_is_no_lag) {
+  Stream stream;
+  const auto next = [&](TimeUs passed_us, unsigned steps) {
+    assert_false(stream.is_late(passed_us, steps));
   };
-  repeat(6, [&] { assert_false(next(2 * kCycleUs, 1)); });
-  assert_true(next(2 * kCycleUs, 1));
-  const FaultSet still = receiver.message_faults(now + 40'000);
-  assert_true(still.has(Fault::kStreamLate));
-  assert_false(receiver.message_faults(now + 40'001).has(Fault::kStreamLate));
-  assert_false(next(kCycleUs, 3));
-  assert_int_equal(receiver.link(Message::kId).wrong_counter, 1);
+  repeat(20, [&] { next(3 * kCycleUs, 3); });  // two of three are lost
+  repeat(6, [&] { next(2 * kCycleUs, 1); });   // it leaves out six cycles
+  next(50'000, 1);                             // a pause, after which it synchronises
+  next(kCycleUs, 1);
+  next(kCycleUs, 1);
+  repeat(6, [&] { next(2 * kCycleUs, 1); });
+  assert_int_equal(stream.receiver.link(Stream::Message::kId).wrong_counter, 0);
+}
+
+// A queue that is worked off is fresh again; one that falls silent is no longer late but missing.
+TEST(lag_ends_with_the_queue_or_in_silence) {
+  Stream stream;
+  repeat(6, [&] { assert_false(stream.is_late(2 * kCycleUs, 1)); });
+  assert_true(stream.is_late(2 * kCycleUs, 1));
+  assert_true(stream.receiver.message_faults(stream.now + 40'000).has(Fault::kStreamLate));
+  assert_false(stream.receiver.message_faults(stream.now + 40'001).has(Fault::kStreamLate));
+  assert_false(stream.is_late(kCycleUs, 3));
+  assert_int_equal(stream.receiver.link(Stream::Message::kId).wrong_counter, 1);
 }
 
 // Whatever a controller of the kind sends.
