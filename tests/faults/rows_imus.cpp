@@ -2,7 +2,6 @@
 // Row 76: IMUs on the links in the place of stroke sensors, silent or wrong.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -34,9 +33,26 @@ constexpr unsigned kFaults = 8;
 
 constexpr double kTilt_rad = 0.35;
 
-/// At most, from the first wrong frame of each; 0: what does no harm may go on.
-constexpr std::array<TimeUs, kFaults> kSeenWithin_us = {
-    60 * kMillisecondUs, 20 * kMillisecondUs, 2 * kSecondUs, 120 * kMillisecondUs, kSecondUs};
+/// At most, from the first wrong frame; 0: what does no harm may go on.
+TimeUs seen_within_us(ImuFault fault) {
+  switch (fault) {
+    case ImuFault::kSilent:
+      return 60 * kMillisecondUs;
+    case ImuFault::kDegraded:
+      return 20 * kMillisecondUs;
+    case ImuFault::kFrozen:
+      return 2 * kSecondUs;
+    case ImuFault::kTwoSenders:
+      return 120 * kMillisecondUs;
+    case ImuFault::kTilted:
+      return kSecondUs;
+    case ImuFault::kOffset:
+    case ImuFault::kOtherSign:
+    case ImuFault::kShaken:
+      break;
+  }
+  return 0;
+}
 
 /// As Trial::work(), with the time that IMUs need to learn their biases.
 void dig_by_imus(Trial<Excavator>& trial) {
@@ -157,7 +173,7 @@ void imu_wrong(Trial<Excavator>& trial) {
   rig.tamper = nullptr;
   rig.before_all = nullptr;
   const TimeUs took_us = rig.at_us() - since_us;
-  const TimeUs most_us = kSeenWithin_us[static_cast<unsigned>(fault)];
+  const TimeUs most_us = seen_within_us(fault);
   if (seen) {
     trial.outcome.codes.add(rig.outputs().status.fault);
     trial.outcome.to_detection_us = took_us;

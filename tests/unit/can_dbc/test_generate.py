@@ -125,15 +125,28 @@ REFUSED = {
     "named value table": (VALUES, 'VAL_TABLE_ OnOff 0 "Off" 1 "On" ;', "unknown keyword"),
     "environment variable": ('CM_ "A database.";', 'CM_ EV_ X "x";', "not supported here"),
     "unknown keyword": (VALUES, "FOO_ 1;", "unknown keyword"),
-    "unknown attribute type": ('BA_DEF_ "ProtocolType" STRING;', 'BA_DEF_ "ProtocolType" BLOB;', "unknown type"),
+    "unknown attribute type": (
+        'BA_DEF_ "ProtocolType" STRING;',
+        'BA_DEF_ "ProtocolType" BLOB;',
+        "unknown type",
+    ),
     "bit timing": ("BS_:", "BS_: 500", "bit timing"),
     "odd character": (VALUES, "?", "unexpected"),
     "string without end": (VALUES, 'CM_ "never closed', "without an end"),
     "not ASCII": ('CM_ "A database.";', 'CM_ "\u00b5s";', "ASCII"),
-    "missing semicolon": ('CM_ BO_ 2566861186 "Status.";', 'CM_ BO_ 2566861186 "Status."', "expected ;",
-        "CM_ SG_ 2566861186 Mode"),
+    "missing semicolon": (
+        'CM_ BO_ 2566861186 "Status.";',
+        'CM_ BO_ 2566861186 "Status."',
+        "expected ;",
+        "CM_ SG_ 2566861186 Mode",
+    ),
     "start bit with fraction": (POSITION, POSITION.replace("16|", "1.5|"), "integer"),
-    "signal without message": ("BU_: Machine Graben", "BU_: Machine Graben\n\n" + POSITION, "outside", POSITION),
+    "signal without message": (
+        "BU_: Machine Graben",
+        "BU_: Machine Graben\n\n" + POSITION,
+        "outside",
+        POSITION,
+    ),
     # References and duplicates
     "unknown sender": (STROKE, "BO_ 2365530240 Stroke: 8 Nobody", "not in BU_"),
     "unknown receiver": (POSITION, POSITION.replace("Graben", "Graben,Nobody"), "not in BU_"),
@@ -142,28 +155,42 @@ REFUSED = {
     "duplicate message": ("BO_ 2365530496 Other", "BO_ 2365530496 Stroke", "defined twice"),
     "duplicate signal": (NUMBER, NUMBER.replace("Number", "Mode"), "defined twice"),
     "duplicate node": ("BU_: Machine Graben", "BU_: Machine Graben Machine", "defined twice"),
-    "duplicate attribute": ('BA_DEF_ "DbcVersion" INT 1 250;', 'BA_DEF_ "ProtocolType" INT 1 250;', "defined twice"),
+    "duplicate attribute": (
+        'BA_DEF_ "DbcVersion" INT 1 250;',
+        'BA_DEF_ "ProtocolType" INT 1 250;',
+        "defined twice",
+    ),
     "unknown id": ("CM_ BO_ 2365530496 ", "CM_ BO_ 2365530497 ", "unknown message id"),
     "unknown signal": ("CM_ SG_ 2566861186 Mode", "CM_ SG_ 2566861186 Mood", "has no signal"),
     "unknown node": ("BU_ Machine 128", "BU_ Nobody 128", "unknown node"),
     "second comment": ('CM_ BO_ 2566861186 "Status.";', 'CM_ "Again.";', "second comment"),
-    "second value": ('BA_ "DbcVersion" 1;', 'BA_ "DbcVersion" 1;\nBA_ "DbcVersion" 2;', "second value",
-        'BA_ "DbcVersion" 2'),
+    "second value": (
+        'BA_ "DbcVersion" 1;',
+        'BA_ "DbcVersion" 1;\nBA_ "DbcVersion" 2;',
+        "second value",
+        'BA_ "DbcVersion" 2',
+    ),
     "undefined attribute": (DELTA, 'BA_ "GenMsgSpeed" BO_ 2365530240 3;', "not defined"),
     "attribute of another kind": (DELTA, 'BA_ "SigType" BO_ 2365530240 0;', "another kind"),
     "attribute outside its range": (DELTA, DELTA.replace(" 3;", " 16;"), "outside [0, 15]"),
-    "attribute without such a choice": ('BA_ "VFrameFormat" BO_ 2365530240 3;', 'BA_ "VFrameFormat" BO_ 2365530240 4;',
-        "no choice"),
+    "attribute without such a choice": (
+        'BA_ "VFrameFormat" BO_ 2365530240 3;',
+        'BA_ "VFrameFormat" BO_ 2365530240 4;',
+        "no choice",
+    ),
     # Messages
     "short message": (STROKE, STROKE.replace("8 M", "7 M"), "8 bytes"),
     "long message": (STROKE, STROKE.replace("8 M", "9 M"), "8 bytes"),
     "lower-case name": (STROKE, STROKE.replace("Stroke", "stroke"), "name in C++"),
-    "no cycle time": ('BA_ "GenMsgCycleTime" BO_ 2365530240 10;\n', "", "GenMsgCycleTime", STROKE),
-    "frame format": ('BA_ "VFrameFormat" BO_ 2365530240 3;', 'BA_ "VFrameFormat" BO_ 2365530240 1;', "J1939PG"),
+    "no cycle time": (
+        'BA_ "GenMsgCycleTime" BO_ 2365530240 10;\n', "", "GenMsgCycleTime", STROKE),
+    "frame format": (
+        'BA_ "VFrameFormat" BO_ 2365530240 3;', 'BA_ "VFrameFormat" BO_ 2365530240 1;', "J1939PG"),
     "protocol": ('BA_ "ProtocolType" "J1939";', 'BA_ "ProtocolType" "CAN";', "not J1939"),
     "no version": ('BA_ "DbcVersion" 1;\n', "", "no DbcVersion", 'VERSION "1"'),
     "message without comment": ('CM_ BO_ 2365530240 "A stroke.";\n', "", "no comment", STROKE),
-    "signal without comment": ('CM_ SG_ 2365530240 Position "Position.";\n', "", "no comment", POSITION),
+    "signal without comment": (
+        'CM_ SG_ 2365530240 Position "Position.";\n', "", "no comment", POSITION),
     # Signals
     "overlap": (NUMBER, NUMBER.replace("8|8", "3|8"), "overlaps Mode in bit 3"),
     "beyond the message": (POSITION, POSITION.replace("16|16", "49|16"), "lies beyond"),
@@ -182,9 +209,14 @@ REFUSED = {
     "error value that is valid": (MODE_ERROR, MODE_ERROR.replace("14;", "13;"), "not between"),
     "error is not available": (MODE_ERROR, MODE_ERROR.replace("14;", "15;"), "the same"),
     "error beyond the width": (MODE_ERROR, MODE_ERROR.replace("14;", "16;"), "not between"),
-    "width without special values": (POSITION, POSITION.replace("16|16", "16|12").replace("3200]", "200]"),
-        "no special values", 'BA_ "SigErrorRaw" SG_ 2365530240'),
-    "signal type": (START, 'BA_ "SigType" SG_ 2365530496 Angle 1;', "SigType is not supported"),
+    "width without special values": (
+        POSITION,
+        POSITION.replace("16|16", "16|12").replace("3200]", "200]"),
+        "no special values",
+        'BA_ "SigErrorRaw" SG_ 2365530240',
+    ),
+    "signal type": (
+        START, 'BA_ "SigType" SG_ 2365530496 Angle 1;', "SigType is not supported"),
     # States
     "state without name": (VALUES, VALUES.replace(' 1 "Ready"', ""), "must name all"),
     "state beyond the range": (VALUES, VALUES.replace("14 ", '2 "Armed" 14 '), "must name all"),
@@ -193,21 +225,33 @@ REFUSED = {
     "state that is no name": (VALUES, VALUES.replace("Ready", "not yet"), "name in C++"),
     # Protection
     "crc elsewhere": (
-        ' SG_ Crc : 0|8@1+ (1,0) [0|255] "" Graben\n SG_ Counter : 8|4@1+ (1,0) [0|14] "" Graben\n' + ANGLE,
-        ' SG_ Crc : 56|8@1+ (1,0) [0|255] "" Graben\n' ' SG_ Counter : 8|4@1+ (1,0) [0|14] "" Graben\n' + ANGLE,
-        "lies at 0|8"),
-    "counter elsewhere": (' SG_ Counter : 8|4@1+ (1,0) [0|14] "" Graben\n' + ANGLE,
-        ' SG_ Counter : 12|4@1+ (1,0) [0|14] "" Graben\n' + ANGLE, "lies at 8|4"),
-    "counter to 15": (' SG_ Counter : 8|4@1+ (1,0) [0|14] "" Graben\n' + ANGLE,
-        ' SG_ Counter : 8|4@1+ (1,0) [0|15] "" Graben\n' + ANGLE, "plain [0|14]"),
+        ' SG_ Crc : 0|8@1+ (1,0) [0|255] "" Graben\n SG_ Counter : 8|4@1+ (1,0) [0|14] "" Graben\n'
+        + ANGLE,
+        ' SG_ Crc : 56|8@1+ (1,0) [0|255] "" Graben\n'
+        ' SG_ Counter : 8|4@1+ (1,0) [0|14] "" Graben\n' + ANGLE,
+        "lies at 0|8",
+    ),
+    "counter elsewhere": (
+        ' SG_ Counter : 8|4@1+ (1,0) [0|14] "" Graben\n' + ANGLE,
+        ' SG_ Counter : 12|4@1+ (1,0) [0|14] "" Graben\n' + ANGLE,
+        "lies at 8|4",
+    ),
+    "counter to 15": (
+        ' SG_ Counter : 8|4@1+ (1,0) [0|14] "" Graben\n' + ANGLE,
+        ' SG_ Counter : 8|4@1+ (1,0) [0|15] "" Graben\n' + ANGLE,
+        "plain [0|14]",
+    ),
     "no crc": ('BA_ "SigType" SG_ 2365530240 Crc 3;\n', "", "one MessageChecksum", STROKE),
     "no counter": ('BA_ "SigType" SG_ 2365530240 Counter 2;\n', "", "one MessageCounter", STROKE),
-    "crc without data id": ('BA_ "E2EDataId" BO_ 2365530240 291;\n', "", "without E2EDataId", " SG_ Crc"),
+    "crc without data id": (
+        'BA_ "E2EDataId" BO_ 2365530240 291;\n', "", "without E2EDataId", " SG_ Crc"),
     "no delta": (DELTA + "\n", "", "E2EMaxDeltaCounter 0", STROKE),
     "delta of 15": (DELTA, DELTA.replace(" 3;", " 15;"), "E2EMaxDeltaCounter 15"),
-    "delta without protection": (DELTA, DELTA + '\nBA_ "E2EMaxDeltaCounter" BO_ 2566861186 1;', "E2EMaxDeltaCounter 1",
+    "delta without protection": (
+        DELTA, DELTA + '\nBA_ "E2EMaxDeltaCounter" BO_ 2566861186 1;', "E2EMaxDeltaCounter 1",
         'BA_ "E2EMaxDeltaCounter" BO_ 2566861186'),
-    "equal data ids": ('BA_ "E2EDataId" BO_ 2365530496 292;', 'BA_ "E2EDataId" BO_ 2365530496 291;', "to the CRC"),
+    "equal data ids": (
+        'BA_ "E2EDataId" BO_ 2365530496 292;', 'BA_ "E2EDataId" BO_ 2365530496 291;', "to the CRC"),
 }
 
 # As above, but every occurrence is replaced, as the renaming of an id or a signal needs.

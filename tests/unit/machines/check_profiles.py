@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shipped profiles load, with and without the simulated machine's file; wrong ones of both files are
-refused with every error listed, each of their keys if it is missing or, a dozer's, out of the range on its page:
+refused with every error listed, each of their keys if it is missing or out of range:
 check_profiles.py GRABEN READ_PROFILE MACHINES_FOLDER."""
 
 import os
@@ -59,18 +59,8 @@ def wrong_cases(reader, kind, good, cases):
             yield f"{what}: without {missing}:\n{errors}"
 
 
-def ranges_of(page, heading):
-    """Of each key in a section of KEYS.md what its number, or the first of several, may be, and the unit."""
-    section = page.split(f"## {heading}\n")[1].split("\n## ")[0]
-    for key, unit, allowed in re.findall(r"^\| `(.*?)` \|.*\| (.*?) \| (.*?) \| .*? \|$", section, re.MULTILINE):
-        ranges = allowed.split(", ")[-1].split("; ")
-        # Of pairs each number has a unit, or the second one alone.
-        units = ["", *unit.split(", ")][-len(ranges):]
-        yield key, f"{ranges[0]} {units[0]}".rstrip()
-
-
 def wrong_keys(reader, kind, good, ranges):
-    """Each key is told if it is missing, and its range, where these are given, if its number is out of it."""
+    """Each key is told if it is missing, and its range if its number is out of it."""
     for path in leaves(tomllib.loads(good)):
         key = key_path(path)
         errors = reader.errors_of(kind, without(good, path))
@@ -86,11 +76,12 @@ def wrong_keys(reader, kind, good, ranges):
                 yield f"{key} is missed: {errors}"
         if not optional and f"{key}: missing" not in errors:
             yield f"{key} is not missed"
-        if not ranges or key == "kind":
-            continue
-        allowed = ranges.get(key, "what is on its page")
+    keys = {key_path(path) for path in leaves(tomllib.loads(good))} - {"kind"}
+    if ranges and keys != set(ranges):
+        yield f"{kind}: not in both file and table: {keys ^ set(ranges)}"
+    for key, allowed in ranges.items():
         for number in (-1e18, 1e18):
-            errors = reader.errors_of(kind, with_number(good, path, number))
+            errors = reader.errors_of(kind, with_number(good, key.split("."), number))
             if not re.search(rf"^  {re.escape(key)}[ \[].*; allowed: {re.escape(allowed)}$", errors,
                              re.MULTILINE):
                 yield f"{key} at {number}: not '{allowed}' in:\n{errors}"
@@ -192,11 +183,6 @@ def main():
             good[kind] = stream.read()
         with open(simulation(path), encoding="utf-8") as stream:
             simulated[kind] = stream.read()
-    # That the page is what the readers ask for is check_warnings.py's; an excavator is read by the same code.
-    with open(os.path.join(folder, "KEYS.md"), encoding="utf-8") as stream:
-        page = stream.read()
-    ranges = {"dozer": dict(ranges_of(page, "A dozer: NAME.toml")), "excavator": {}, "simulated-excavator": {},
-              "simulated-dozer": dict(ranges_of(page, "A dozer's simulation: NAME.sim.toml"))}
     with tempfile.TemporaryDirectory() as scratch:
         reader = Reader(program, scratch, good)
         for name in shipped:
@@ -207,9 +193,9 @@ def main():
                       for text in [reader.errors_of_file(read_as, path)] if text]
         for kind, cases in (("excavator", excavator_cases), ("dozer", dozer_cases)):
             wrong += wrong_cases(reader, kind, good[kind], cases.CASES)
-            wrong += wrong_keys(reader, kind, good[kind], ranges[kind])
+            wrong += wrong_keys(reader, kind, good[kind], cases.RANGES)
             wrong += wrong_cases(reader, SIMULATED + kind, simulated[kind], cases.SIMULATION_CASES)
-            wrong += wrong_keys(reader, SIMULATED + kind, simulated[kind], ranges[SIMULATED + kind])
+            wrong += wrong_keys(reader, SIMULATED + kind, simulated[kind], cases.SIMULATION_RANGES)
         wrong += wrong_kind(reader, good)
         wrong += like_cases(reader, folder, scratch)
         wrong += without_simulation(graben, scratch, good)
