@@ -9,7 +9,7 @@ namespace graben {
 
 struct ExcavatorModel {
   const ExcavatorProfile& profile;
-  DriveRows drives;
+  DriveRows drives = {nullptr, 0};
   const SwingKinematics& kinematics;
   const McvMachine& valve;
 };
