@@ -17,6 +17,8 @@ import sys
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 DECLARED = re.compile(r"(?<![\w:])(~?\w+)\s*(?:\[[^\]]*\]\s*)*(?:[({=;]|:(?!:)|$)")
+# A local constant that is called as an unnamed namespace's of another source would hide it.
+LOCAL = re.compile(r"^\s+(?:static )?constexpr .*?\b(k[A-Z]\w*)\s*(?:\[[^\]]*\]\s*)*[={(]", re.MULTILINE)
 MACRO = re.compile(r"^#define (\w+)|^namespace (\w+) =")
 
 
@@ -38,7 +40,7 @@ def names_of(line: str) -> set[str]:
 def read(path: pathlib.Path) -> tuple[frozenset[str], frozenset[str], tuple[str, ...]]:
     """Names of its unnamed namespaces, of all that it declares, and what it includes."""
     text = COMMENT.sub("", path.read_text(encoding="utf-8"))
-    own, every, unnamed = set(), set(), False
+    own, every, unnamed = set(), set(LOCAL.findall(text)), False
     for line in text.splitlines():
         if line.startswith("namespace {"):
             unnamed = True

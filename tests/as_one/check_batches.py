@@ -18,13 +18,15 @@ SOURCES = {
                      "constexpr int kLimits[] = {1};\n\n}\nint row() { return Row{4}.a + kLimits[0]; }\n}\n",
     "in_header.cpp": '#include "row.hpp"\nnamespace house {\nint in_header() { return Row{}.b; }\n}\n',
     "in_braces.cpp": "namespace house {\nnamespace {\n\nconstexpr int kLimits{5};\n\n}\nint braces() { return kLimits; }\n}\n",
+    "own.cpp": "namespace house {\nnamespace {\n\nconstexpr int kOwn = 6;\n\n}\nint own() { return kOwn; }\n}\n",
+    "local.cpp": "namespace house {\nint local() {\n  constexpr int kOwn = 7;\n  return kOwn;\n}\n}\n",
     "alias_one.cpp": "namespace house {\nnamespace {\n\nnamespace bus = house;\n\n}\nint one() { return 1; }\n}\n",
     "alias_two.cpp": "namespace yard {}\nnamespace house {\nnamespace {\n\nnamespace bus = yard;\n\n}\nint two() { return 2; }\n}\n",
     "macro.cpp": "#define another 7\nnamespace house {\nint macro() { return another; }\n}\n",
 }
 HEADER = "#pragma once\nnamespace house {\n\nstruct Row {\n  int b = 0;\n};\n\n}\n"
 APART = [("plain.cpp", "same_function.cpp"), ("same_type.cpp", "in_header.cpp"), ("same_type.cpp", "in_braces.cpp"),
-         ("other.cpp", "macro.cpp"), ("alias_one.cpp", "alias_two.cpp")]
+         ("own.cpp", "local.cpp"), ("other.cpp", "macro.cpp"), ("alias_one.cpp", "alias_two.cpp")]
 
 with tempfile.TemporaryDirectory() as folder:
     here = pathlib.Path(folder)

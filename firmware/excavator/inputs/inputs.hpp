@@ -6,9 +6,9 @@
 #include "firmware/drives/commission_guard.hpp"
 #include "firmware/estimation/foretold_angle.hpp"
 #include "firmware/excavator/excavator_model.hpp"
-#include "firmware/excavator/inputs/excavator_validation.hpp"
 #include "firmware/excavator/inputs/imu_joints.hpp"
 #include "firmware/excavator/last_cycle.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/safety/cycle.hpp"
 #include "firmware/safety/task_change.hpp"
 

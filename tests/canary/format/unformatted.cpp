@@ -1,1 +1,2 @@
-int twice(int x) { return 2 * x; }
+int  twice( int x ){
+return 2*x; }

@@ -7,7 +7,7 @@
 #include "firmware/drives/drive_watch.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
-#include "firmware/excavator/inputs/excavator_validation.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 
 namespace graben::test {
 

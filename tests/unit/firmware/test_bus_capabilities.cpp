@@ -5,7 +5,7 @@
 #include "firmware/signals/bus_capabilities.hpp"
 
 #include "firmware/dozer/safety/dozer_watch.hpp"
-#include "firmware/excavator/inputs/excavator_validation.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/safety/cycle.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "firmware/drives/drive_gate.hpp"
-#include "firmware/excavator/inputs/excavator_validation.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/inputs.hpp"

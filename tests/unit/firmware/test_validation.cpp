@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 
-#include "firmware/excavator/inputs/excavator_validation.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/hydraulics/flow.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the validation stops and what it bridges while the machine moves; the bus.
 
-#include "firmware/excavator/inputs/excavator_validation.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 
 #include <cmath>
 

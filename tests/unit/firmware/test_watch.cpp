@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/inputs/excavator_validation.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"

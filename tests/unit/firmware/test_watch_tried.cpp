@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Watches while duties are tried on valves that nobody knows.
 
-#include "firmware/excavator/inputs/excavator_validation.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 
 #include "tests/unit/firmware/watched_machine.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 /// A machine in motion, for what watches it.
 
-#include "firmware/excavator/inputs/excavator_validation.hpp"
+#include "firmware/excavator/safety/excavator_validation.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
 
