@@ -30,6 +30,11 @@ template <class Control>
   Control control;
   control.spool_rate_ps =
       reader.number("control.spool_rate", {0.1, 1000.0, "1/s"}, "slew limit of a spool's opening");
+  if (reader.has("control.duty_rate")) {
+    control.duty_rate_ps =
+        reader.number("control.duty_rate", {10.0, 100.0, "1/s"},
+                      "fastest rise of a duty on the wire, lead included; 50 unless told");
+  }
   control.spool_threshold = reader.number("control.spool_threshold", {0.0, 0.1, ""},
                                           "opening below which a spool stays at neutral");
   control.response_s = reader.number("control.response", {0.001, 1.0, "s"},

@@ -37,6 +37,7 @@ void fill_row(const DozerProfile& profile, const ImplementDrive& drive, DriveRow
   row.answer.extend = {drive.spool_to_duty, control.dead_time_s, control.response_s, 0.0};
   row.answer.retract = row.answer.extend;
   row.control.spool_rate_ps = control.spool_rate_ps;
+  row.control.duty_rate_ps = control.duty_rate_ps;
   row.control.spool_threshold = control.spool_threshold;
   row.control.stroke_end_gain_ps = kEndGain_ps;
   row.watch.fastest_mps = kFasterThanPumps * drive.valve_flow_max_m3ps / drive.rod_area_m2;

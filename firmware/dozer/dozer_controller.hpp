@@ -2,6 +2,7 @@
 #pragma once
 /// The dozer's controller: one step from signals to commands, 100 times a second.
 
+#include "firmware/core/sealed.hpp"
 #include "firmware/dozer/blade_control.hpp"
 #include "firmware/dozer/flow_share.hpp"
 #include "firmware/dozer/safety/dozer_gate.hpp"
@@ -38,7 +39,7 @@ struct DozerSetup {
 /// Belongs to the tests; nothing of ours defines it.
 struct DozerMemoryAccess;
 
-/// Holds what one cycle hands to the next; what the machine is stays with the caller.
+/// Holds what one cycle hands to the next, under a seal; what the machine is stays with the caller.
 /// No clock, no globals, no heap; `step` costs a bounded number of operations.
 class DozerController {
  public:
@@ -70,9 +71,13 @@ class DozerController {
   };
 
   struct Memory {
+    /// As before the first cycle.
+    explicit Memory(const DozerSetup& setup);
+
+    GradeProfile design;  ///< Of this pass.
+    GroundMap ground;
     CycleMemory cycle;
     DozerGateState gate;
-    Guarded<double> speed_mps;  ///< v_c of the last cycle in motion.
     DozerValidationState validation;
     DozerWatchState watch;
     DozerLastCommands last;
@@ -106,9 +111,9 @@ class DozerController {
   /// Takes in where the machine is: what the blade has cut, what lies ahead.
   void estimate(const DozerValid& valid, double period_s);
   [[nodiscard]] FlowSituation flow_now(const DozerValid& valid) const {
-    return {{due_mps(memory_.servo[kBladeLift]), due_mps(memory_.servo[kBladeTilt])},
+    return {{due_mps(memory_->servo[kBladeLift]), due_mps(memory_->servo[kBladeTilt])},
             {valid.blade().stroke_m, valid.tilt().stroke_m},
-            memory_.last.drives.moving ? valid.engine_radps : 0.0};
+            memory_->last.drives.moving ? valid.engine_radps : 0.0};
   }
   /// As it is measured, over its track.
   [[nodiscard]] Driving driving_of(const DozerValid& valid) const {
@@ -129,11 +134,11 @@ class DozerController {
   void place_on_curve(const DozerValid& valid, double lead_s, BladeSituation& at) const;
   /// So much higher is the design below the body than on the track beside it.
   [[nodiscard]] double raised_m(const DozerValid& valid, double x_m) const {
-    return design_.cross_at(x_m).slope * valid.course.offset_m;
+    return memory_->design.cross_at(x_m).slope * valid.course.offset_m;
   }
   [[nodiscard]] double reach_m() const { return setup_.blade.edge_m(0.0).x(); }
   [[nodiscard]] EdgeCourse edge_now(const DozerValid& valid) const {
-    return edge_course(design_, valid.position_m, valid.course, reach_m());
+    return edge_course(memory_->design, valid.position_m, valid.course, reach_m());
   }
   /// Of the error that the task allows, what the blade may leave standing on purpose: the rest is
   /// for what nobody foresees.
@@ -166,10 +171,8 @@ class DozerController {
 
   const DozerSetup& setup_;
   const DozerProfile& profile_;
-  GradeProfile design_;  ///< Of this pass.
-  GroundMap ground_;
-  Preview preview_;
-  Memory memory_;
+  Sealed<Memory> memory_;
+  Preview preview_;  ///< Made anew in each cycle.
 };
 
 }  // namespace graben

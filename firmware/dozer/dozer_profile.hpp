@@ -171,12 +171,13 @@ struct GradeDesign {
 
 struct DozerControl {
   double sensor_timeout_s = 0.0;
-  double spool_rate_ps = 0.0;    ///< Largest opening per second.
-  double spool_threshold = 0.0;  ///< Opening under which the spool is kept at neutral.
-  double dead_time_s = 0.0;      ///< From a duty to the spool's first movement.
-  double response_s = 0.0;       ///< Lag of the blade cylinders' speed behind their command.
-  double pose_latency_s = 0.0;   ///< Age of a measured pose when it comes in.
-  double blade_gain_ps = 0.0;    ///< Height error to velocity.
+  double spool_rate_ps = 0.0;          ///< Largest opening per second.
+  double duty_rate_ps = kDutyRate_ps;  ///< Largest rise of a duty on the wire per second.
+  double spool_threshold = 0.0;        ///< Opening under which the spool is kept at neutral.
+  double dead_time_s = 0.0;            ///< From a duty to the spool's first movement.
+  double response_s = 0.0;             ///< Lag of the blade cylinders' speed behind their command.
+  double pose_latency_s = 0.0;         ///< Age of a measured pose when it comes in.
+  double blade_gain_ps = 0.0;          ///< Height error to velocity.
   double blade_integral_ps2 = 0.0;
   double blade_integral_most_mps = 0.0;
 };

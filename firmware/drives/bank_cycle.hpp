@@ -3,7 +3,7 @@
 /// A bank of drives around a cycle, for a kind that watches nothing else: what is kept, and the
 /// steps before and after the kind's own motion.
 
-#include "firmware/core/guarded.hpp"
+#include "firmware/drives/drive_gate.hpp"
 #include "firmware/drives/drive_servo.hpp"
 #include "firmware/drives/drive_watch.hpp"
 #include "firmware/drives/velocity_cap.hpp"
@@ -28,8 +28,9 @@ struct BankMotion {
 template <int kMost>
 struct BankMemory {
   CycleMemory cycle;
-  Guarded<double> lambda;  ///< Of the last cycle; 0 unless it was Active.
-  std::array<Guarded<double>, kMost> opening;
+  double lambda = 0.0;                  ///< Of the last cycle; 0 unless it was Active.
+  std::array<double, kMost> opening{};  ///< x / x_m
+  std::array<double, kMost> sent{};     ///< Duties that the gate let through.
   std::array<AcceptedStroke, kMost> accepted;
   DriveWatchState<kMost> watch;
   SlowingState slowing;
@@ -71,14 +72,30 @@ void correct(DriveRows drives, const BankValid<kMost>& valid, const BankMemory<k
              BankMotion<kMost>& motion) {
   for (int i = 0; i < drives.count(); ++i) {
     const auto k = static_cast<unsigned>(i);
-    motion.corrected_mps[k] =
-        corrected_mps(drives[i], memory.servo[k], motion.wanted_mps[k], memory.lambda.value(),
-                      valid.speed_override_ratio, false);
+    motion.corrected_mps[k] = corrected_mps(drives[i], memory.servo[k], motion.wanted_mps[k],
+                                            memory.lambda, valid.speed_override_ratio, false);
   }
   slow_at_ends(drives, valid.drive, motion.corrected_mps, motion.cap);
   for (double& each_mps : motion.corrected_mps) {
     each_mps *= motion.cap.factor;
   }
+}
+
+/// Opens the spools as far as the mode lets them, the gate last.
+template <int kMost>
+[[nodiscard]] GateResult put_out(DriveRows drives, bool active, Span<const double> spool_m,
+                                 double period_s, BankMemory<kMost>& memory,
+                                 Span<double> duty_ratio) {
+  std::array<double, kMost> wanted_ratio{};
+  if (active) {
+    open_spools(drives, spool_m, period_s, memory.opening, wanted_ratio);
+  }
+  const GateResult gated =
+      gate_duties(drives, active, wanted_ratio, period_s, memory.sent, duty_ratio);
+  if (!gated.enable) {
+    memory.opening = {};
+  }
+  return gated;
 }
 
 /// Keeps what the next cycle needs of this one; `lambda` is the valve's.
@@ -90,7 +107,7 @@ void remember(const ModeDecision& decision, const Outputs& outputs, const BankMo
   memory.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}};
   for (unsigned k = 0; k < kMost; ++k) {
     memory.last.asked_mps[k] = followed * motion.corrected_mps[k];
-    memory.last.opening[k] = memory.opening[k].value();
+    memory.last.opening[k] = memory.opening[k];
     memory.expected_mps[k] = followed * motion.cap.factor * motion.wanted_mps[k];
   }
 }

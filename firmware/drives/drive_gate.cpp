@@ -3,31 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "firmware/drives/spool_opening.hpp"
 
 namespace graben {
 namespace {
-
-double change_max(const DriveRow& drive, double period_s) {
-  return drive.control.spool_rate_ps * std::max(0.0, period_s);
-}
-
-bool is_finite(DriveRows drives, Span<const double> spool_m, double period_s) {
-  bool finite = true;
-  for (int i = 0; i < drives.count(); ++i) {
-    finite = finite && std::isfinite(spool_m[i]) && std::isfinite(change_max(drives[i], period_s));
-  }
-  return finite;
-}
-
-bool is_intact(DriveRows drives, Span<Guarded<double>> opening) {
-  bool intact = true;
-  for (int i = 0; i < drives.count(); ++i) {
-    intact = intact && opening[i].intact();
-  }
-  return intact;
-}
 
 double duty_of(const DriveRow& drive, double opening) {
   if (opening != 0.0 && std::abs(opening) >= drive.control.spool_threshold) {
@@ -37,19 +18,17 @@ double duty_of(const DriveRow& drive, double opening) {
   return 0.0;
 }
 
-GateResult neutral(Fault fault, Span<Guarded<double>> opening, Span<double> duty_ratio) {
-  std::fill(opening.begin(), opening.end(), Guarded(0.0));
-  std::fill(duty_ratio.begin(), duty_ratio.end(), 0.0);
-  return {false, fault};
+double change_max(const DriveRow& drive, double period_s) {
+  return drive.control.duty_rate_ps * std::max(0.0, period_s);
 }
 
-/// kNone: the command may go on.
-Fault refusal(DriveRows drives, Span<const double> command, double period_s,
-              Span<Guarded<double>> kept) {
-  if (!is_finite(drives, command, period_s)) {
-    return Fault::kCommandNotFinite;
+bool is_finite(DriveRows drives, Span<const double> wanted_ratio, double period_s) {
+  bool finite = true;
+  for (int i = 0; i < drives.count(); ++i) {
+    finite =
+        finite && std::isfinite(wanted_ratio[i]) && std::isfinite(change_max(drives[i], period_s));
   }
-  return is_intact(drives, kept) ? Fault::kNone : Fault::kMemoryCorrupt;
+  return finite;
 }
 
 }  // namespace
@@ -60,32 +39,41 @@ double slew_limited(double wanted, double last, double change_max) {
   return std::clamp(wanted, -limit, limit);
 }
 
-GateResult gate_drives(DriveRows drives, bool active, Span<const double> spool_m, double period_s,
-                       Span<Guarded<double>> opening, Span<double> duty_ratio) {
-  const Fault refused = active ? refusal(drives, spool_m, period_s, opening) : Fault::kNone;
-  if (!active || refused != Fault::kNone) {
-    return neutral(refused, opening, duty_ratio);
-  }
+void open_spools(DriveRows drives, Span<const double> spool_m, double period_s,
+                 Span<double> opening, Span<double> duty_ratio) {
   for (int i = 0; i < drives.count(); ++i) {
+    const double change = drives[i].control.spool_rate_ps * std::max(0.0, period_s);
+    if (!std::isfinite(spool_m[i]) || !std::isfinite(change)) {
+      opening[i] = 0.0;
+      duty_ratio[i] = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
     const double wanted = std::clamp(spool_m[i] / drives[i].metering.spool_travel_m, -1.0, 1.0);
-    const double next = slew_limited(wanted, opening[i].value(), change_max(drives[i], period_s));
-    opening[i] = next;
-    duty_ratio[i] = duty_of(drives[i], next);
+    opening[i] = slew_limited(wanted, opening[i], change);
+    duty_ratio[i] = duty_of(drives[i], opening[i]);
   }
-  return {true, Fault::kNone};
+}
+
+void step_duties(DriveRows drives, Span<const double> tried_ratio, double period_s,
+                 Span<const double> sent, Span<double> duty_ratio) {
+  const double change = kTriedDutyRate_ps * std::max(0.0, period_s);
+  for (int i = 0; i < drives.count(); ++i) {
+    duty_ratio[i] = slew_limited(tried_ratio[i], sent[i], change);
+  }
 }
 
 GateResult gate_duties(DriveRows drives, bool active, Span<const double> wanted_ratio,
-                       double period_s, Span<Guarded<double>> sent, Span<double> duty_ratio) {
-  const Fault refused = active ? refusal(drives, wanted_ratio, period_s, sent) : Fault::kNone;
-  if (!active || refused != Fault::kNone) {
-    return neutral(refused, sent, duty_ratio);
+                       double period_s, Span<double> sent, Span<double> duty_ratio) {
+  const bool sends = active && is_finite(drives, wanted_ratio, period_s);
+  if (!sends) {
+    std::fill(sent.begin(), sent.end(), 0.0);
+    std::fill(duty_ratio.begin(), duty_ratio.end(), 0.0);
+    return {false, active ? Fault::kCommandNotFinite : Fault::kNone};
   }
   for (int i = 0; i < drives.count(); ++i) {
     const double wanted = std::clamp(wanted_ratio[i], -1.0, 1.0);
-    duty_ratio[i] =
-        slew_limited(wanted, sent[i].value(), kTriedDutyRate_ps * std::max(0.0, period_s));
-    sent[i] = duty_ratio[i];
+    sent[i] = slew_limited(wanted, sent[i], change_max(drives[i], period_s));
+    duty_ratio[i] = sent[i];
   }
   return {true, Fault::kNone};
 }

@@ -25,9 +25,8 @@ SpoolModel after(const SpoolModel& spool, double time_constant_s, double duty_ra
 
 }  // namespace
 
-double led_duty(double time_constant_s, double wanted_ratio, SpoolModel& spool) {
+double led_duty(double time_constant_s, double wanted_ratio, const SpoolModel& spool) {
   if (!(time_constant_s > 0.0)) {
-    spool = {wanted_ratio, 0.0};
     return wanted_ratio;
   }
   // Sooner than within its time constant a spool takes many times the way that it is to go.
@@ -36,10 +35,12 @@ double led_duty(double time_constant_s, double wanted_ratio, SpoolModel& spool) 
   const double by_duty = after(spool, time_constant_s, 1.0, ahead_s).travel_ratio - by_itself;
   const double leading = std::clamp((wanted_ratio - by_itself) / by_duty, -1.0, 1.0);
   // To neutral it comes at last, not ever nearer.
-  const bool is_home = wanted_ratio == 0.0 && std::abs(leading) < kHome;
-  const double duty_ratio = is_home ? 0.0 : leading;
-  spool = after(spool, time_constant_s, duty_ratio, kCycle_s);
-  return duty_ratio;
+  return wanted_ratio == 0.0 && std::abs(leading) < kHome ? 0.0 : leading;
+}
+
+SpoolModel spool_after(double time_constant_s, double sent_ratio, const SpoolModel& spool) {
+  return time_constant_s > 0.0 ? after(spool, time_constant_s, sent_ratio, kCycle_s)
+                               : SpoolModel{sent_ratio, 0.0};
 }
 
 }  // namespace graben

@@ -16,13 +16,9 @@ ExcavatorController::ExcavatorController(const ExcavatorSetup& setup)
     : machine_{setup.profile, setup.bank.rows(), setup.kinematics, setup.valve},
       sources_{setup.book, setup.field, setup.oil} {}
 
-bool ExcavatorController::intact() const {
-  return memory_.last.flow.lambda.intact() && memory_.motion.task.intact();
-}
-
 ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs now_us) {
-  Memory& is = memory_;
-  const Cycle cycle = begin_cycle(is.cycle, intact(), now_us);
+  Memory& is = *memory_;
+  const Cycle cycle = begin_cycle(is.cycle, memory_.unseal(), now_us);
   const ExcavatorValid valid =
       read_inputs(machine_, sources_.book.count, inputs, cycle, now_us, is.last, is.inputs);
   const Motion motion = next_motion(valid, cycle);
@@ -45,11 +41,12 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   go_on(machine_, sources_.book, valid, motion,
         {decision.active(), decision.active() ? followed.of_way() * motion.cap.factor : 0.0},
         is.estimates.load_observer.told, cycle.period_s, is.motion);
+  memory_.seal();
   return outputs;
 }
 
 Motion ExcavatorController::next_motion(const ExcavatorValid& valid, const Cycle& cycle) {
-  Memory& is = memory_;
+  Memory& is = *memory_;
   const MotionUnderWay under_way = motion_under_way(machine_, sources_.book, valid, is.motion);
   estimate(machine_, sources_.oil, valid, is.inputs, under_way, cycle, is.last, is.estimates);
   Motion motion = wanted_motion(machine_, sources_, valid, is.inputs, is.estimates, cycle.period_s,

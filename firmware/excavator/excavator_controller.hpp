@@ -2,6 +2,7 @@
 #pragma once
 /// The excavator's controller: one step from signals to commands, 100 times a second.
 
+#include "firmware/core/sealed.hpp"
 #include "firmware/excavator/status/status.hpp"
 
 namespace graben {
@@ -24,7 +25,7 @@ struct ExcavatorSetup {
 /// Belongs to the tests; nothing of ours defines it.
 struct ControllerMemoryAccess;
 
-/// Holds what one cycle hands to the next; what the machine is stays with the caller.
+/// Holds what one cycle hands to the next, under a seal; what the machine is stays with the caller.
 /// No clock, no globals, no heap; `step` costs a bounded number of operations.
 class ExcavatorController {
  public:
@@ -51,14 +52,12 @@ class ExcavatorController {
     LastCycle last;
   };
 
-  /// True while nothing that is guarded has changed by itself.
-  [[nodiscard]] bool intact() const;
   /// Stages two to four. Not inlined, for the stack below the solver.
   [[nodiscard, gnu::noinline]] Motion next_motion(const ExcavatorValid& valid, const Cycle& cycle);
 
   const ExcavatorModel machine_;
   const MotionSources sources_;
-  Memory memory_;
+  Sealed<Memory> memory_;
 };
 
 /// Result of checking that a profile makes a controller: the valve's data are sound and the path

@@ -134,6 +134,7 @@ DriveRow section_row(const ExcavatorProfile& profile, int drive) {
   row.answer.extend = answer_of(profile, drive, true);
   row.answer.retract = answer_of(profile, drive, false);
   row.control.spool_rate_ps = control.spool_rate_ps;
+  row.control.duty_rate_ps = control.duty_rate_ps;
   row.control.spool_threshold = control.spool_threshold;
   row.control.stroke_end_gain_ps = control.stroke_end_gain_ps;
   row.feedback = {control.servo_gain_ps,      control.servo_most_m,       control.servo_most_m,

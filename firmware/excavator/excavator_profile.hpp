@@ -199,12 +199,13 @@ struct ControlProfile {
   double stroke_end_gain_ps = 0.0;  ///< Largest speed towards a cylinder's end, per metre left.
   McvPolicy lambda_policy = McvPolicy::kGlobal;
   LambdaRise lambda_rise;
-  double spool_rate_ps = 0.0;         ///< Largest change of |x| / x_m per second.
-  double spool_threshold = 0.0;       ///< |x| / x_m under which a spool is kept at neutral.
-  double sensor_timeout_s = 0.0;      ///< A signal older than this is missing.
-  double response_s = 0.0;            ///< Lag of a cylinder's speed behind its spool command.
-  double servo_gain_ps = 0.0;         ///< Integrated error of a cylinder's travel to speed.
-  double swing_servo_most_rad = 0.0;  ///< Bound of its error where a plan turns it.
+  double spool_rate_ps = 0.0;          ///< Largest change of |x| / x_m per second.
+  double duty_rate_ps = kDutyRate_ps;  ///< Largest rise of a duty on the wire per second.
+  double spool_threshold = 0.0;        ///< |x| / x_m under which a spool is kept at neutral.
+  double sensor_timeout_s = 0.0;       ///< A signal older than this is missing.
+  double response_s = 0.0;             ///< Lag of a cylinder's speed behind its spool command.
+  double servo_gain_ps = 0.0;          ///< Integrated error of a cylinder's travel to speed.
+  double swing_servo_most_rad = 0.0;   ///< Bound of its error where a plan turns it.
   double swing_lead_s = 0.0;  ///< Lag of the platform behind its spool, where a plan turns it.
   double swing_servo_gain_ps = 0.0;  ///< The same of the swing; the platform's oil is softer.
   double servo_most_m = 0.0;         ///< Bound of that error.

@@ -3,7 +3,6 @@
 /// What a cycle hands to the next: what it commanded, and how that was followed. Written once, at
 /// its end.
 
-#include "firmware/core/guarded.hpp"
 #include "firmware/drives/drive_watch.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/safety/stall_watch.hpp"
@@ -13,7 +12,7 @@ namespace graben {
 
 /// The valve's flow as the last cycle solved it.
 struct LastFlow {
-  Guarded<double> lambda;     ///< Of the path, without corrections; 0 out of motion.
+  double lambda = 0.0;        ///< Of the path, without corrections; 0 out of motion.
   double of_corrected = 1.0;  ///< Share of that, with corrections (Followed).
   PerPump<double> line_pa{};  ///< Pressure of each pump's line.
   /// How much less flow boom and arm get for each newton more; 0 of a line that does not give way.

@@ -18,8 +18,9 @@ inline constexpr int kMostDrives = 6;
 
 /// How a drive's commands may change.
 struct DriveControl {
-  double spool_rate_ps = 0.0;       ///< Largest change of |x| / x_m per second.
-  double spool_threshold = 0.0;     ///< |x| / x_m under which the spool is kept at neutral.
+  double spool_rate_ps = 0.0;          ///< Largest change of |x| / x_m per second.
+  double duty_rate_ps = kDutyRate_ps;  ///< Largest rise of a duty on the wire per second.
+  double spool_threshold = 0.0;        ///< |x| / x_m under which the spool is kept at neutral.
   double stroke_end_gain_ps = 0.0;  ///< Largest speed towards an end of the travel, per metre left.
   double end_slack_m = 0.0;         ///< See approach_ends().
   double deceleration_mps2 = 0.0;   ///< That the drive is stopped with before an end.

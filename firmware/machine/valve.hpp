@@ -19,6 +19,10 @@ constexpr double rod_area_m2(int count, double bore_m, double rod_m) {
   return cap_area_m2(count, bore_m) - cap_area_m2(count, rod_m);
 }
 
+/// Largest rise of a duty on the wire, of its whole range per second, where the profile says
+/// nothing: half of it in a cycle.
+inline constexpr double kDutyRate_ps = 50.0;
+
 enum class RegenerationSide : int { kRetract = -1, kNone = 0, kExtend = 1 };
 
 /// One four-way directional valve with its bypass and regeneration (3.1 - 3.3).

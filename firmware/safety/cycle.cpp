@@ -64,10 +64,14 @@ PilotResult pilot(const PilotState& last, const ModeState& mode, const FaultSet&
 }
 
 Cycle begin_cycle(CycleMemory& memory, bool intact, TimeUs now_us) {
+  const Fault corrupt = intact ? Fault::kNone : Fault::kMemoryCorrupt;
+  if (!intact) {
+    memory.mode = {EcuMode::kFault, corrupt};
+    memory.pilot = {true, true};
+  }
   const TimeWatchResult time = watch_time(memory.time, now_us);
   memory.time = time.state;
-  const Fault corrupt = intact && memory.mode.intact() ? Fault::kNone : Fault::kMemoryCorrupt;
-  return {first_of({time.fault, corrupt}), memory.mode.value().mode, time.elapsed_s, time.period_s};
+  return {first_of({time.fault, corrupt}), memory.mode.mode, time.elapsed_s, time.period_s};
 }
 
 ModeDecision decide_mode(const CycleMemory& memory, const Cycle& cycle, const CommonValid& valid,
@@ -78,9 +82,7 @@ ModeDecision decide_mode(const CycleMemory& memory, const Cycle& cycle, const Co
                                valid.task != Task::kNone,
                                centred,
                                stop_requested};
-  const ModeState last = memory.mode.intact() ? memory.mode.value()
-                                              : ModeState{EcuMode::kFault, Fault::kMemoryCorrupt};
-  return {request, next_mode(last, request)};
+  return {request, next_mode(memory.mode, request)};
 }
 
 void take_refusal(Fault refused, ModeDecision& decision) {

@@ -5,7 +5,6 @@
 
 #include <initializer_list>
 
-#include "firmware/core/guarded.hpp"
 #include "firmware/safety/common_inputs.hpp"
 #include "firmware/safety/mode.hpp"
 
@@ -55,7 +54,7 @@ struct PilotResult {
 
 /// State from cycle to cycle, whatever the machine.
 struct CycleMemory {
-  Guarded<ModeState> mode;
+  ModeState mode;
   TimeState time;
   PilotState pilot;
 };
@@ -68,7 +67,9 @@ struct Cycle {
   double period_s = 0.0;
 };
 
-/// Watches time and memory; `intact`: the rest of what the controller stores is.
+/// Watches time and memory; `intact`: what the controller stores is. If not, all of it was made
+/// anew by now: the mode is one that this stopped, and the pilot pressure is cut until the operator
+/// arms again, as nobody knows whether it was.
 [[nodiscard]] Cycle begin_cycle(CycleMemory& memory, bool intact, TimeUs now_us);
 
 /// Mode of a cycle and what was asked of it.
@@ -79,8 +80,7 @@ struct ModeDecision {
   [[nodiscard]] bool active() const { return mode.mode == EcuMode::kActive; }
 };
 
-/// The mode after the inputs and whatever stops beside them: `fault` counts after theirs. A stored
-/// mode that is not intact counts as stopped by that, whatever it has become.
+/// The mode after the inputs and whatever stops beside them: `fault` counts after theirs.
 [[nodiscard]] ModeDecision decide_mode(const CycleMemory& memory, const Cycle& cycle,
                                        const CommonValid& valid, Fault fault, bool centred,
                                        bool stop_requested);

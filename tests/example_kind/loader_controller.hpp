@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/core/sealed.hpp"
 #include "firmware/drives/bank_cycle.hpp"
-#include "firmware/drives/drive_gate.hpp"
 #include "firmware/drives/spool_opening.hpp"
 #include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/optimiser.hpp"
@@ -33,7 +33,11 @@ inline DriveRow loader_drive(const LoaderProfile& profile, unsigned i) {
   row.spool = profile.spool[i];
   row.metering = profile.metering;
   row.answer = straight_answers(profile.deadband_ratio, 0.0, 0.053);
-  row.control = {3.0, 0.001, 2.0, 0.05e-3, 0.5};
+  row.control.spool_rate_ps = 3.0;
+  row.control.spool_threshold = 0.001;
+  row.control.stroke_end_gain_ps = 2.0;
+  row.control.end_slack_m = 0.05e-3;
+  row.control.deceleration_mps2 = 0.5;
   row.control.at_end = {LimitKind::kStrokeEnd, static_cast<std::uint8_t>(i)};
   row.feedback = {2.0, 0.025, 0.025, 0.2, 2.4, 0.4};
   row.watch.fastest_mps = kFasterThanPumps * rated_flow_m3ps(profile.pump) / profile.rod_m2[i];
@@ -58,29 +62,30 @@ class LoaderController {
   explicit LoaderController(const LoaderSetup& setup) : setup_(setup) {}
 
   [[nodiscard]] LoaderOutputs step(const LoaderInputs& inputs, TimeUs now_us) {
-    const Cycle cycle = begin_cycle(memory_.cycle, memory_.lambda.intact(), now_us);
+    const Cycle cycle = begin_cycle(memory_->cycle, memory_.unseal(), now_us);
     const BankValid<kLoaderDrives> valid = validate_and_watch(inputs, cycle, now_us);
-    estimate(drives(), valid, cycle, 0.15, memory_);
+    estimate(drives(), valid, cycle, 0.15, *memory_);
     const BankMotion<kLoaderDrives> motion = along_the_cut(valid);
     const double flow_m3ps = pump_flow_m3ps(setup_.profile.pump, valid.engine_radps, 1.0);
-    const McvSolution solution = steady_lambda(
-        setup_.valve, mcv_input(motion.corrected_mps, memory_.load, {&flow_m3ps, 1}),
-        McvPolicy::kGlobal, {6.0, 2000.0, 0.75}, memory_.lambda.value(), cycle.period_s);
+    const McvSolution solution =
+        steady_lambda(setup_.valve, mcv_input(motion.corrected_mps, memory_->load, {&flow_m3ps, 1}),
+                      McvPolicy::kGlobal, {6.0, 2000.0, 0.75}, memory_->lambda, cycle.period_s);
     ModeDecision decision =
-        decide_mode(memory_.cycle, cycle, valid, solver_fault(solution),
+        decide_mode(memory_->cycle, cycle, valid, solver_fault(solution),
                     spools_centred(drives(), valid.drive), inputs.link.stop_requested);
     LoaderOutputs outputs;
-    const GateResult gated = gate_drives(drives(), decision.active(), solution.point.spool_m,
-                                         cycle.period_s, memory_.opening, outputs.duty_ratio);
+    const GateResult gated = put_out(drives(), decision.active(), solution.point.spool_m,
+                                     cycle.period_s, *memory_, outputs.duty_ratio);
     take_refusal(gated.fault, decision);
     outputs.enable = gated.enable;
-    end_cycle(decision, valid, memory_.cycle, outputs, outputs.status);
+    end_cycle(decision, valid, memory_->cycle, outputs, outputs.status);
     if (decision.active()) {
       outputs.status.lambda = motion.cap.factor * solution.point.lambda;
       outputs.status.limit =
           held_by({solution.limit, motion.cap.limit, degraded_limit(valid.degraded)});
     }
-    remember(decision, outputs, motion, solution.point.lambda, memory_);
+    remember(decision, outputs, motion, solution.point.lambda, *memory_);
+    memory_.seal();
     return outputs;
   }
 
@@ -96,7 +101,7 @@ class LoaderController {
     const Freshness fresh(0.045, now_us);
     const double rated_radps = setup_.profile.pump.rated_speed_radps;
     read_machine(bus, inputs, {rated_radps, 0.4 * rated_radps}, fresh, now_us, valid);
-    read_and_watch(drives(), bus, inputs.drive, fresh, 0.3, cycle.period_s, memory_, valid);
+    read_and_watch(drives(), bus, inputs.drive, fresh, 0.3, cycle.period_s, *memory_, valid);
     return valid;
   }
 
@@ -109,7 +114,7 @@ class LoaderController {
     for (unsigned i = 0; i < kLoaderDrives; ++i) {
       const CylinderTriangle triangle(profile.parent_pin_m[i], profile.child_pin_m[i], -1);
       angle_rad[i] = triangle.angle(profile.closed_length_m[i] +
-                                    stroke_then_m(setup_.bank.row[i], memory_.servo[i]));
+                                    stroke_then_m(setup_.bank.row[i], memory_->servo[i]));
       radpm[i] = 1.0 / triangle.length_rate(angle_rad[i]);
     }
     const double both_rad = angle_rad.sum();
@@ -129,13 +134,13 @@ class LoaderController {
       // Where the drives cannot move the edge so, no number comes of it, and the solver refuses it.
       const Vector wanted_mps = per_stroke.inverse() * (along_mps * along + back_mps);
       motion.wanted_mps = {wanted_mps[kLift], wanted_mps[kTilt]};
-      correct(drives(), valid, memory_, motion);
+      correct(drives(), valid, *memory_, motion);
     }
     return motion;
   }
 
   const LoaderSetup& setup_;
-  BankMemory<kLoaderDrives> memory_;
+  Sealed<BankMemory<kLoaderDrives>> memory_;
 };
 
 }  // namespace graben

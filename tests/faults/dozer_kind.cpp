@@ -6,7 +6,6 @@
 
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "firmware/dozer/blade.hpp"
-#include "tests/unit/firmware/flip_bit.hpp"
 
 namespace graben {
 
@@ -222,25 +221,9 @@ Reading Dozer::any_reading(Node& node, plant::Random& random) {
   }
 }
 
-void Dozer::flip(Ecu& ecu, unsigned setpoint, unsigned bit) {
+std::pair<void*, std::size_t> Dozer::memory(Ecu& ecu) {
   auto& memory = DozerMemoryAccess::memory(ecu);
-  switch (setpoint) {
-    case 0:
-      test::flip_bit(memory.cycle.mode, bit);
-      break;
-    case 1:
-      test::flip_bit(memory.speed_mps, bit);
-      break;
-    case 2:
-      test::flip_bit(memory.gate.opening.front(), bit);
-      break;
-    case 3:
-    case 4:
-      test::flip_bit(memory.gate.pump_ratio[setpoint - 3], bit);
-      break;
-    default:
-      test::flip_bit(memory.gate.motor_ratio[(setpoint - 5) % kTrackCount], bit);
-  }
+  return {&memory, sizeof memory};
 }
 
 }  // namespace graben::faults

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "app/plant/random.hpp"
 #include "app/runs/dozer_rig.hpp"
@@ -39,7 +40,6 @@ struct Dozer : runs::DozerSim {
   static constexpr TimeUs kBack_us = 1500 * kMillisecondUs;
   /// Its blade moves now and then, and a little at a time.
   static constexpr TimeUs kStuckStroke_us = 15 * kSecondUs;
-  static constexpr unsigned kSetpoints = 3 + 2 * kTrackCount;
 
   struct Scenery {
     Machine machine;
@@ -101,8 +101,8 @@ struct Dozer : runs::DozerSim {
   }
   [[nodiscard]] static plant::DozerFaults& axis(Node& node, unsigned) { return node.faults(); }
   [[nodiscard]] static Reading any_reading(Node& node, plant::Random& random);
-  /// A bit of one of the guarded setpoints: mode, v_c, what the gate let through.
-  static void flip(Ecu& ecu, unsigned setpoint, unsigned bit);
+  /// All that the controller keeps from cycle to cycle, and its size in bytes.
+  static std::pair<void*, std::size_t> memory(Ecu& ecu);
 };
 
 }  // namespace graben::faults

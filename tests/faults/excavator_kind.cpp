@@ -6,7 +6,6 @@
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/machines/task_file.hpp"
 #include "firmware/excavator/motion/field/rounded_rectangle.hpp"
-#include "tests/unit/firmware/flip_bit.hpp"
 
 namespace graben {
 
@@ -268,18 +267,9 @@ Reading Excavator::any_reading(Node& node, plant::Random& random) {
           Fault::kStrokeJump, Fault::kStrokeMissing};
 }
 
-void Excavator::flip(Ecu& ecu, unsigned setpoint, unsigned bit) {
+std::pair<void*, std::size_t> Excavator::memory(Ecu& ecu) {
   auto& memory = ControllerMemoryAccess::memory(ecu);
-  switch (setpoint) {
-    case 0:
-      test::flip_bit(memory.cycle.mode, bit);
-      break;
-    case 1:
-      test::flip_bit(memory.last.flow.lambda, bit);
-      break;
-    default:
-      test::flip_bit(memory.output.opening[setpoint % kAxes], bit);
-  }
+  return {&memory, sizeof memory};
 }
 
 }  // namespace graben::faults

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "app/plant/random.hpp"
 #include "app/runs/excavator_rig.hpp"
@@ -39,7 +40,6 @@ struct Excavator : runs::ExcavatorSim {
   static constexpr TimeUs kSlows_us = 30 * kMillisecondUs;
   static constexpr TimeUs kBack_us = 1300 * kMillisecondUs;
   static constexpr TimeUs kStuckStroke_us = 3 * kSecondUs;
-  static constexpr unsigned kSetpoints = 2 + kAxisCount;
 
   struct Scenery {
     Machine machine;
@@ -117,8 +117,8 @@ struct Excavator : runs::ExcavatorSim {
     return node.faults().axis[axis];
   }
   [[nodiscard]] static Reading any_reading(Node& node, plant::Random& random);
-  /// A bit of one of the guarded setpoints: mode, lambda, the openings that the gate let through.
-  static void flip(Ecu& ecu, unsigned setpoint, unsigned bit);
+  /// All that the controller keeps from cycle to cycle, and its size in bytes.
+  static std::pair<void*, std::size_t> memory(Ecu& ecu);
 };
 
 }  // namespace graben::faults

@@ -173,7 +173,7 @@ void too_many_at_once(Trial<Kind>& trial) {
 }
 
 /// No real spool opens faster than control.spool_rate, whatever is asked for; three times as fast
-/// where it catches up with a duty.
+/// where it catches up with a duty. No duty rises faster than control.duty_rate.
 template <class Kind>
 void opens_slowly(Trial<Kind>& trial) {
   auto& rig = *trial.rig;
@@ -181,15 +181,21 @@ void opens_slowly(Trial<Kind>& trial) {
   const double most = 3.0 * (1.0 - first) * rig.machine.profile.control.spool_rate_ps * 0.01;
   auto last = Kind::real_spools(rig.plant.plant());
   double fastest = 0.0;
+  double steepest = 0.0;
+  auto last_duty = Kind::duties(rig.outputs());
   rig.before_all = [&] {
+    const auto duty = Kind::duties(rig.outputs());
     const auto now = Kind::real_spools(rig.plant.plant());
     for (unsigned i = 0; i < Kind::kAxes; ++i) {
       // From its middle it crosses the dead band in one step; a reversal begins there.
       const bool reverses = last[i] * now[i] <= 0.0;
       const double from = reverses ? first : std::max(first, std::abs(last[i]));
       fastest = std::max(fastest, std::abs(now[i]) - from);
+      const double from_duty = last_duty[i] * duty[i] > 0.0 ? std::abs(last_duty[i]) : 0.0;
+      steepest = std::max(steepest, std::abs(duty[i]) - from_duty);
     }
     last = now;
+    last_duty = duty;
   };
   trial.work();
   rig.run(3 * kSecondUs);
@@ -197,6 +203,9 @@ void opens_slowly(Trial<Kind>& trial) {
   trial.check(fastest <= most, "a spool opens by " + std::to_string(fastest) + " in a cycle, " +
                                    std::to_string(most) + " is the most");
   trial.check(fastest > 0.02 * most, "nothing has asked for more");
+  const double steep = rig.machine.profile.control.duty_rate_ps * 0.01 + 1e-9;
+  trial.check(steepest <= steep, "a duty rises by " + std::to_string(steepest) + " in a cycle, " +
+                                     std::to_string(steep) + " is the most");
   trial.saw("slow");
 }
 

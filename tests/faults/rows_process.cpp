@@ -3,6 +3,7 @@
 
 #include "tests/faults/frames.hpp"
 #include "tests/faults/row.hpp"
+#include "tests/unit/firmware/flip_bit.hpp"
 
 namespace graben::faults {
 namespace {
@@ -126,7 +127,8 @@ void not_at_rest(Trial<Kind>& trial) {
 template <class Kind>
 void bit_flips(Trial<Kind>& trial) {
   auto& rig = trial.work();
-  Kind::flip(*rig.ecu, trial.any_of(Kind::kSetpoints), trial.any_of(1U << 16U));
+  const auto [memory, size] = Kind::memory(*rig.ecu);
+  test::flip_bit_at(memory, trial.any_of(static_cast<unsigned>(8 * size)));
   trial.expect_stop({rig.now_us, {Fault::kMemoryCorrupt}, kCycle_us, kCycle_us});
 }
 
@@ -164,7 +166,7 @@ Rows<Kind> process_rows() {
       {45, "wall clock steps", "on the bus of a real kernel: tests/hil", nullptr},
       {46, "profile hash or DBC version differs", "refused", other_identity<Kind>},
       {47, "task or enable not at rest", "refused", not_at_rest<Kind>},
-      {48, "bit flips in a stored setpoint", "N L", bit_flips<Kind>},
+      {48, "bit flips in what is stored", "N L", bit_flips<Kind>},
       {63, "every signal that ends the process", "on the bus of a real kernel: tests/hil", nullptr},
       {50, "24, 2 and 41 together", "N L", all_at_once<Kind>}};
 }

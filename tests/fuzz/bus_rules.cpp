@@ -132,6 +132,12 @@ std::string BusRules<Kind>::check_opening(const typename Kind::Dbc::SpoolCommand
     if (std::abs(duty[i]) > 1.0) {
       return fmt::format("duty {}", duty[i]);
     }
+    const double from = duty[i] * duty_[i] > 0.0 ? std::abs(duty_[i]) : 0.0;
+    const double rise = any_command_ ? profile_.control.duty_rate_ps * elapsed_s : 0.0;
+    if (std::abs(duty[i]) > from + rise + kDutyStep) {
+      return fmt::format("duty {} from {} to {} in {} s", i, duty_[i], duty[i], elapsed_s);
+    }
+    duty_[i] = duty[i];
     const bool is_led = i < Kind::kLed && time_constant_s > 0.0;
     if (is_led && std::abs(elapsed_s - 0.01) > 0.001) {
       led_[i].miss();

@@ -86,6 +86,7 @@ class BusRules {
   typename Kind::OtherCommands others_;
   std::map<std::uint32_t, int> counter_;  ///< Last, of each protected message.
   std::array<double, Kind::kSpools> opening_{};
+  std::array<double, Kind::kSpools> duty_{};
   std::array<LedSpool, Kind::kSpools> led_{};
   TimeUs command_us_ = 0;
   bool any_command_ = false;

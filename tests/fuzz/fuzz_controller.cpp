@@ -30,7 +30,10 @@ struct RawCycle {
   std::uint64_t period_us;
 };
 
-using RawRun = std::array<RawCycle, kCycles>;
+struct RawRun {
+  std::array<RawCycle, kCycles> cycle;
+  std::uint64_t machine;  ///< Which law, which duty_rate.
+};
 
 /// A bool has two values, any byte does not.
 void make_bool(bool& value) {
@@ -64,8 +67,46 @@ std::string unsafe_outputs(const ExcavatorOutputs& outputs) {
              : "a status that is not finite";
 }
 
+/// What goes on the wire may rise no faster than the profile says, from whatever cycle.
+class Wire {
+ public:
+  explicit Wire(double duty_rate_ps) : duty_rate_ps_(duty_rate_ps) {}
+
+  std::string after(const ExcavatorOutputs& outputs, TimeUs now_us) {
+    constexpr double kLongest_s = 0.02;
+    constexpr double kRounding = 1e-12;
+    const double elapsed_s = std::min(1e-6 * static_cast<double>(now_us - last_us_), kLongest_s);
+    std::string wrong = unsafe_outputs(outputs);
+    for (unsigned i = 0; i < kDriveCount; ++i) {
+      const double duty = outputs.duty_ratio[i];
+      const double from = duty * last_[i] > 0.0 ? std::abs(last_[i]) : 0.0;
+      if (wrong.empty() && std::abs(duty) > from + duty_rate_ps_ * elapsed_s + kRounding) {
+        wrong = fmt::format("duty {} from {} to {} in {} s", i, last_[i], duty, elapsed_s);
+      }
+    }
+    tally("cycles") += 1;
+    tally("cycles that open a spool") += outputs.duty_ratio != Duties{} ? 1 : 0;
+    tally("of those commissioning or by hand") +=
+        outputs.duty_ratio != Duties{} && by_hand_ ? 1 : 0;
+    last_ = outputs.duty_ratio;
+    last_us_ = now_us;
+    return wrong;
+  }
+  void asked(Task task) {
+    by_hand_ = task == Task::kCommission || task == Task::kJog || task == Task::kCoordinated;
+  }
+
+ private:
+  using Duties = std::array<double, kDriveCount>;
+
+  double duty_rate_ps_;
+  Duties last_{};
+  TimeUs last_us_ = kStart_us;
+  bool by_hand_ = false;
+};
+
 /// Sound inputs, enable released, then given again with the task at rest, then the task.
-std::string recover(ExcavatorController& controller, bool has_swing, TimeUs now_us) {
+std::string recover(ExcavatorController& controller, bool has_swing, TimeUs now_us, Wire& wire) {
   ExcavatorOutputs told;
   int active = 0;
   for (const TimeUs end_us = now_us + kRecovery_us; now_us < end_us;) {
@@ -79,7 +120,7 @@ std::string recover(ExcavatorController& controller, bool has_swing, TimeUs now_
     inputs.driver.enable.value = in_motion || mode == EcuMode::kReady;
     inputs.driver.task.value = in_motion ? Task::kDig : Task::kNone;
     told = controller.step(inputs, now_us);
-    if (std::string wrong = unsafe_outputs(told); !wrong.empty()) {
+    if (std::string wrong = wire.after(told, now_us); !wrong.empty()) {
       return wrong;
     }
     active = told.status.mode == EcuMode::kActive ? active + 1 : 0;
@@ -92,12 +133,24 @@ std::string recover(ExcavatorController& controller, bool has_swing, TimeUs now_
                      told.status.why_not_armed);
 }
 
+/// The machine with another law, and another rate of its duties.
+ExcavatorProfile drawn(ExcavatorProfile profile, std::uint64_t machine) {
+  constexpr std::array<ControlLaw, 3> kLaws = {ControlLaw::kOil, ControlLaw::kServo,
+                                               ControlLaw::kKim};
+  if (profile.control.law == ControlLaw::kOil) {
+    profile.control.law = kLaws[machine % kLaws.size()];
+  }
+  profile.control.duty_rate_ps = kDutyRate_ps - 4.0 * static_cast<double>(machine / 3 % 11);
+  return profile;
+}
+
 std::string check_run(const ExcavatorProfile& profile, RawRun run) {
-  const ExcavatorSetup setup(profile);
+  const ExcavatorSetup setup(drawn(profile, run.machine));
+  Wire wire(setup.profile.control.duty_rate_ps);
   ExcavatorController controller(setup);
   TimeUs now_us = kStart_us;
   bool stopped = false;
-  for (RawCycle& cycle : run) {
+  for (RawCycle& cycle : run.cycle) {
     for (bool* value : {&cycle.inputs.driver.enable.value, &cycle.inputs.same_machine.value,
                         &cycle.inputs.valve_enabled.value, &cycle.inputs.link.out_of_range,
                         &cycle.inputs.link.stop_requested, &cycle.inputs.link.cannot_answer}) {
@@ -105,13 +158,14 @@ std::string check_run(const ExcavatorProfile& profile, RawRun run) {
     }
     stopped = stopped || cycle.inputs.link.stop_requested;
     now_us += static_cast<TimeUs>(cycle.period_us % (kSecondUs + 1));
-    const std::string wrong = unsafe_outputs(controller.step(cycle.inputs, now_us));
+    wire.asked(cycle.inputs.driver.task.value);
+    const std::string wrong = wire.after(controller.step(cycle.inputs, now_us), now_us);
     if (!wrong.empty()) {
       return wrong;
     }
   }
   // Told to end, it stays where it is.
-  return stopped ? "" : recover(controller, profile.has_swing(), now_us);
+  return stopped ? "" : recover(controller, profile.has_swing(), now_us, wire);
 }
 
 }  // namespace
@@ -125,14 +179,26 @@ std::string check_bytes(const std::uint8_t* data, std::size_t size) {
 bool inputs_are_numbers() { return true; }
 
 std::vector<Bytes> seed_inputs() {
-  RawRun run{};
-  for (unsigned n = 0; n < kCycles; ++n) {
-    run[n].period_us = kPeriod_us;
-    run[n].inputs = complete_inputs(kStart_us + (n + 1) * kPeriod_us);
-    run[n].inputs.driver.enable.value = n >= 2;
-    run[n].inputs.driver.task.value = n == 1 || n == 2 ? Task::kNone : Task::kDig;
+  std::vector<Bytes> seeds;
+  for (const Task task : {Task::kDig, Task::kCommission, Task::kJog, Task::kCoordinated}) {
+    RawRun run{};
+    for (unsigned n = 0; n < kCycles; ++n) {
+      const TimeUs now_us = kStart_us + (n + 1) * kPeriod_us;
+      ExcavatorInputs inputs = complete_inputs(now_us);
+      inputs.driver.enable.value = n >= 2;
+      inputs.driver.task.value = n == 1 || n == 2 ? Task::kNone : task;
+      const bool moves = n > 3;
+      inputs.tried_ratio = fresh<std::array<double, kAxisCount>>({moves ? 0.9 : 0.0}, now_us);
+      inputs.lever_ratio = fresh<std::array<double, kDriveCount>>({moves ? 1.0 : 0.0}, now_us);
+      for (Signal<StrokeWindow>& window : inputs.window) {
+        window = fresh(StrokeWindow{0.1, 1.2}, now_us);
+      }
+      run.cycle[n].period_us = kPeriod_us;
+      run.cycle[n].inputs = inputs;
+    }
+    seeds.push_back(bytes_from_raw(run));
   }
-  return {bytes_from_raw(run)};
+  return seeds;
 }
 
 }  // namespace graben::test

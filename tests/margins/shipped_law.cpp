@@ -113,8 +113,9 @@ Eigen::Vector2d LawInTime::step(const Eigen::Vector4d& seen, State& state) const
   for (int axis = 0; axis < 2; ++axis) {
     SpoolModel spool = {kDutyAtRest + state[kSpool + axis], state[kSpoolSpeed + axis]};
     const double wanted = kDutyAtRest + kDutyOfSpeed_spm * asked_mps[axis];
-    duty_mps[axis] =
-        (led_duty(spool_time_constant_s_, wanted, spool) - kDutyAtRest) / kDutyOfSpeed_spm;
+    const double duty = led_duty(spool_time_constant_s_, wanted, spool);
+    spool = spool_after(spool_time_constant_s_, duty, spool);
+    duty_mps[axis] = (duty - kDutyAtRest) / kDutyOfSpeed_spm;
     state[kSpool + axis] = spool.travel_ratio - kDutyAtRest;
     state[kSpoolSpeed + axis] = spool.speed_ps;
   }

@@ -26,17 +26,6 @@ bool is_finite(const DozerCommand& wanted, const Changes& changes) {
   return finite;
 }
 
-bool is_intact(const DozerGateState& state) {
-  bool intact = true;
-  for (const Guarded<double>& opening : state.opening) {
-    intact = intact && opening.intact();
-  }
-  for (unsigned i = 0; i < kTrackCount; ++i) {
-    intact = intact && state.pump_ratio[i].intact() && state.motor_ratio[i].intact();
-  }
-  return intact;
-}
-
 DozerGateResult neutral(Fault fault, DozerGateState& state) {
   DozerGateResult result;
   result.fault = fault;
@@ -52,21 +41,22 @@ DozerGateResult gate_dozer(const DozerProfile& profile, DriveRows drives, bool a
   if (active && !is_finite(wanted, changes)) {
     return neutral(Fault::kCommandNotFinite, state);
   }
-  if (active && !is_intact(state)) {
-    return neutral(Fault::kMemoryCorrupt, state);
-  }
   DozerGateResult result;
+  std::array<double, kBladeCount> duty_ratio{};
+  if (active) {
+    open_spools(drives, wanted.opening, period_s, state.opening, duty_ratio);
+  }
   const GateResult blade =
-      gate_drives(drives, active, wanted.opening, period_s, state.opening, result.duty_ratio);
+      gate_duties(drives, active, duty_ratio, period_s, state.duty_ratio, result.duty_ratio);
   if (!blade.enable) {
     return neutral(blade.fault, state);
   }
   for (unsigned i = 0; i < kTrackCount; ++i) {
     result.pump_ratio[i] = slew_limited(std::clamp(wanted.pump_ratio[i], -1.0, 1.0),
-                                        state.pump_ratio[i].value(), changes.pump);
+                                        state.pump_ratio[i], changes.pump);
     result.motor_ratio[i] =
         std::max(std::clamp(wanted.motor_ratio[i], profile.hst.motor_ratio_min, 1.0),
-                 state.motor_ratio[i].value() - changes.motor);
+                 state.motor_ratio[i] - changes.motor);
     state.pump_ratio[i] = result.pump_ratio[i];
     state.motor_ratio[i] = result.motor_ratio[i];
   }

@@ -49,8 +49,7 @@ void park_spools(const ExcavatorModel& machine, const ExcavatorValid& valid,
     state.parking = {};
     return;
   }
-  const double lambda =
-      std::max(last.flow.lambda.value(), machine.profile.control.servo_least_lambda);
+  const double lambda = std::max(last.flow.lambda, machine.profile.control.servo_least_lambda);
   for (int axis = 0; axis < 2; ++axis) {
     if (park(motion.wanted_mps[axis], lambda * motion.corrected_mps[axis], period_s,
              state.parking[static_cast<unsigned>(axis)])) {
@@ -98,7 +97,7 @@ Followed flow_limited(const ExcavatorModel& machine, const ExcavatorValid& valid
   };
   scale_to(motion.cap.factor, motion.wanted_mps);
   Followed followed{steady_lambda(machine.valve, input, control.lambda_policy, control.lambda_rise,
-                                  last.flow.lambda.value(), period_s)};
+                                  last.flow.lambda, period_s)};
   followed.lambda = followed.solution.point.lambda;
   const double of_path = followed.lambda;
   if (!machine.profile.bus.pressures) {

@@ -27,8 +27,7 @@ HandAsk hand_ask(const ExcavatorValid& valid) {
 const TaskProgram* running(const TaskBook& book, const ExcavatorValid& valid,
                            const TaskMemory& task) {
   // A place that is not what was stored must not be looked up: it need not be in the program.
-  const bool goes_on =
-      task.runs && task.intact() && valid.task == Task::kProgram && task.number < book.count;
+  const bool goes_on = task.runs && valid.task == Task::kProgram && task.number < book.count;
   return goes_on ? &book.program[task.number] : nullptr;
 }
 
@@ -73,7 +72,7 @@ void dig(const Known& of, Motion& motion) {
   if (any_wary(of.inputs.watch.drives.blocked)) {
     motion.wanted_mps *= kWary;
   }
-  const double lambda = of.last.flow.lambda.value();
+  const double lambda = of.last.flow.lambda;
   motion.corrected_mps = corrected_velocity(of.machine.drives, motion.wanted_mps,
                                             of.estimates.servo, lambda, valid.speed_override_ratio);
   correct_off_path(of.machine, of.sources, of.estimates, lambda, valid.speed_override_ratio,
@@ -86,7 +85,7 @@ void dig(const Known& of, Motion& motion) {
 void follow(const Known& of, const TaskProgram& program, const MotionMemory& state,
             Motion& motion) {
   const ExcavatorProfile& profile = of.machine.profile;
-  const double lambda = of.last.flow.lambda.value();
+  const double lambda = of.last.flow.lambda;
   const double speed_override_ratio = of.valid.speed_override_ratio;
   motion.task = want_of_task(profile, of.machine.drives, of.machine.kinematics, program, state.task,
                              state.aim, of.estimates.servo, speed_override_ratio);
@@ -122,7 +121,7 @@ void steer(const Known& of, const HandState& hand, Motion& motion) {
   motion.wanted_mps = motion.hand.wanted_mps;
   motion.task.pace_ratio = jogs ? 1.0 : hand.pace_ratio;
   motion.corrected_mps =
-      corrected_velocity(drives, motion.wanted_mps, of.estimates.servo, of.last.flow.lambda.value(),
+      corrected_velocity(drives, motion.wanted_mps, of.estimates.servo, of.last.flow.lambda,
                          valid.speed_override_ratio, !jogs && motion.hand.moves);
   for (int i = 0; jogs && i < kDriveCount; ++i) {
     motion.corrected_mps[i] = motion.wanted_mps[i] == 0.0 ? 0.0 : motion.corrected_mps[i];

@@ -12,41 +12,61 @@ double led_through_s(const SpoolAnswers& answer, double wanted_ratio, double tra
   return constant_s <= kLedSpoolMost_s ? constant_s : 0.0;
 }
 
-/// Duties for the valves as they turned out to be.
-void open_as_learnt(const ExcavatorModel& machine, const InputState& inputs,
-                    const LimitState& limits, const OutputState& state, ExcavatorOutputs& outputs) {
-  if (machine.profile.control.law == ControlLaw::kKim || !outputs.enable) {
-    return;
+using Duties = std::array<double, kDriveCount>;
+
+/// Duties of openings, for the valves as they turned out to be.
+Duties open_as_learnt(const ExcavatorModel& machine, const InputState& inputs,
+                      const LimitState& limits, const Followed& followed, double period_s,
+                      OutputState& state) {
+  Duties duty_ratio{};
+  open_spools(machine.drives, followed.solution.point.spool_m, period_s, state.opening, duty_ratio);
+  if (machine.profile.control.law == ControlLaw::kKim) {
+    return duty_ratio;
   }
   const auto& learnt = inputs.watch.drives.learnt;
   for (int i = 0; i < machine.drives.count(); ++i) {
     const auto k = static_cast<unsigned>(i);
     const DriveRow& drive = machine.drives[i];
-    if (outputs.duty_ratio[k] != 0.0 && is_learnt(drive)) {
-      outputs.duty_ratio[k] = learnt_duty(drive, learnt[k], state.opening[k].value());
+    if (duty_ratio[k] != 0.0 && is_learnt(drive)) {
+      duty_ratio[k] = learnt_duty(drive, learnt[k], state.opening[k]);
     } else if (i < 2 && limits.parking[k].parked) {
-      outputs.duty_ratio[k] = parked_duty(drive, learnt[k], limits.parking[k].side);
+      duty_ratio[k] = parked_duty(drive, learnt[k], limits.parking[k].side);
     }
   }
+  return duty_ratio;
 }
 
-/// Duties that lead through the spools' lag; what they add to those.
-std::array<double, kDriveCount> lead_spools(const ExcavatorModel& machine, bool leads,
-                                            OutputState& state, ExcavatorOutputs& outputs) {
-  std::array<double, kDriveCount> lead_ratio{};
-  if (!leads) {
+/// Time constants of the spools that are led, in this cycle.
+using LedThrough = std::array<double, 2>;
+
+LedThrough led_through(const ExcavatorModel& machine, const Duties& wanted,
+                       const OutputState& state) {
+  LedThrough time_s{};
+  for (unsigned k = 0; k < time_s.size(); ++k) {
+    time_s[k] = led_through_s(machine.drives[static_cast<int>(k)].answer, wanted[k],
+                              state.spool[k].travel_ratio);
+  }
+  return time_s;
+}
+
+/// `wanted` through the gate, led through the spools' lag if `leads`.
+GateResult send(const ExcavatorModel& machine, bool active, bool leads, const Duties& wanted,
+                double period_s, OutputState& state, Duties& duty_ratio) {
+  Duties led = wanted;
+  const LedThrough time_s = led_through(machine, wanted, state);
+  for (unsigned k = 0; leads && k < time_s.size(); ++k) {
+    led[k] = led_duty(time_s[k], wanted[k], state.spool[k]);
+  }
+  const GateResult gated =
+      gate_duties(machine.drives, active, led, period_s, state.sent, duty_ratio);
+  if (!leads || !gated.enable) {
     state.spool = {};
-    return lead_ratio;
+    return gated;
   }
-  for (int axis = 0; axis < 2; ++axis) {
-    const auto k = static_cast<unsigned>(axis);
-    const double wanted = outputs.duty_ratio[k];
-    SpoolModel& spool = state.spool[k];
-    outputs.duty_ratio[k] = led_duty(
-        led_through_s(machine.drives[axis].answer, wanted, spool.travel_ratio), wanted, spool);
-    lead_ratio[k] = outputs.duty_ratio[k] - wanted;
+  for (unsigned k = 0; k < time_s.size(); ++k) {
+    state.spool[k] = spool_after(time_s[k], duty_ratio[k], state.spool[k]);
   }
-  return lead_ratio;
+  return gated;
 }
 
 /// Swash for what is wanted in this cycle.
@@ -75,24 +95,30 @@ SentDuties put_out(const ExcavatorModel& machine, const ExcavatorValid& valid,
                    const LimitState& limits, const Followed& followed, double period_s,
                    const LastCycle& last, ModeDecision& decision, OutputState& state,
                    ExcavatorOutputs& outputs) {
+  SentDuties sent;
+  if (decision.active()) {
+    if (motion.tries) {
+      step_duties(machine.drives, inputs.tried_ratio, period_s, state.sent, sent.duty_ratio);
+      state.opening = {};
+    } else {
+      sent.duty_ratio = open_as_learnt(machine, inputs, limits, followed, period_s, state);
+    }
+  }
+  const bool leads = is_on_oil(machine.profile) && !motion.tries;
   const GateResult gated =
-      motion.tries ? gate_duties(machine.drives, decision.active(), inputs.tried_ratio, period_s,
-                                 state.opening, outputs.duty_ratio)
-                   : gate_drives(machine.drives, decision.active(), followed.solution.point.spool_m,
-                                 period_s, state.opening, outputs.duty_ratio);
+      send(machine, decision.active(), leads, sent.duty_ratio, period_s, state, outputs.duty_ratio);
   take_refusal(gated.fault, decision);
   outputs.enable = gated.enable;
-  if (!motion.tries) {
-    open_as_learnt(machine, inputs, limits, state, outputs);
+  if (!gated.enable) {
+    state.opening = {};
+    sent.duty_ratio = {};
+  }
+  for (unsigned k = 0; k < kDriveCount; ++k) {
+    sent.lead_ratio[k] = outputs.duty_ratio[k] - sent.duty_ratio[k];
   }
   demand_pumps(machine, valid, inputs, estimates, motion, decision.active(), period_s, last,
                state.pumps);
   outputs.swash_ratio = state.pumps.swash_ratio;
-  SentDuties sent;
-  sent.duty_ratio = outputs.duty_ratio;
-  const bool tried = decision.active() && motion.tries;
-  sent.lead_ratio =
-      lead_spools(machine, is_on_oil(machine.profile) && outputs.enable && !tried, state, outputs);
   return sent;
 }
 

@@ -11,7 +11,8 @@ namespace graben {
 
 /// State from cycle to cycle.
 struct OutputState {
-  std::array<Guarded<double>, kDriveCount> opening;
+  std::array<double, kDriveCount> opening{};  ///< x / x_m at work.
+  std::array<double, kDriveCount> sent{};     ///< Duties that the gate let through.
   std::array<SpoolModel, kDriveCount> spool;
   PumpDemand pumps;
 };
@@ -23,7 +24,8 @@ struct SentDuties {
   std::array<double, kDriveCount> lead_ratio{};
 };
 
-/// Enable, duties and swash of this cycle. A refusal of the gate stops: it changes `decision`.
+/// Enable, duties and swash of this cycle; the gate comes last. A refusal of it stops: it changes
+/// `decision`.
 [[nodiscard]] SentDuties put_out(const ExcavatorModel& machine, const ExcavatorValid& valid,
                                  const InputState& inputs, const EstimationState& estimates,
                                  const Motion& motion, const LimitState& limits,

@@ -71,7 +71,7 @@ void remember(const ExcavatorModel& machine, const ExcavatorValid& valid, const 
   for (int i = 0; i < machine.drives.count(); ++i) {
     const auto k = static_cast<unsigned>(i);
     last.commands.towards_mps[k] = motion.towards_mps[i];
-    last.commands.opening[k] = output.opening[k].value();
+    last.commands.opening[k] = output.opening[k];
     if (point.lambda > 0.0) {
       last.commands.line_pa[k] =
           point.pump_pressure_pa[static_cast<unsigned>(machine.valve.actuator[k].pump)];

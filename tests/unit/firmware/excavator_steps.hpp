@@ -12,7 +12,8 @@
 namespace graben::test {
 
 struct GateState {
-  std::array<Guarded<double>, kDriveCount> opening;
+  std::array<double, kDriveCount> opening{};
+  std::array<double, kDriveCount> sent{};
 };
 
 struct Gated : GateResult {
@@ -30,8 +31,10 @@ inline Gated gate(const ExcavatorProfile& profile, const GateState& last, bool a
   for (int i = bank.count; i < kDriveCount; ++i) {
     gated.duty_ratio[static_cast<unsigned>(i)] = 0.0;
   }
+  std::array<double, kDriveCount> wanted_ratio{};
+  open_spools(bank.rows(), spool_m, period_s, gated.state.opening, wanted_ratio);
   static_cast<GateResult&>(gated) =
-      gate_drives(bank.rows(), active, spool_m, period_s, gated.state.opening, gated.duty_ratio);
+      gate_duties(bank.rows(), active, wanted_ratio, period_s, gated.state.sent, gated.duty_ratio);
   return gated;
 }
 

@@ -279,37 +279,40 @@ TEST(other_faults_leave_the_pilot, Digging digging) {
   assert_latched(Fault::kBusOff, digging);
 }
 
-/// Any bit of the mode: neutral in this cycle, latched; nothing of what it has become counts.
-TEST(a_flipped_bit_of_the_mode_stops, Digging before) {
-  for (std::size_t bit = 0; bit < 8 * sizeof(Guarded<ModeState>); ++bit) {
-    Digging digging = before;
-    test::flip_bit(Memory::mode(digging.controller), bit);
-    digging.step(digging.next());
-    assert_latched(Fault::kMemoryCorrupt, digging);
+/// Any bit that flips between two cycles in what is kept, whatever it is of: found.
+TEST(every_bit_of_the_memory_is_sealed, Digging digging) {
+  auto& memory = Memory::memory(digging.controller);
+  for (std::size_t bit = 0; bit < 8 * sizeof memory; ++bit) {
+    test::flip_bit_at(&memory, bit);
+    assert_false(memory.intact());
+    test::flip_bit_at(&memory, bit);
   }
+  assert_true(memory.intact());
+}
+
+/// One of each byte: neutral in this cycle, latched; nothing of what it has become counts.
+TEST(a_flipped_bit_stops, Digging before) {
+  for (std::size_t byte = 0; byte < sizeof Memory::memory(before.controller); ++byte) {
+    Digging digging = before;
+    test::flip_bit_at(&Memory::memory(digging.controller), 8 * byte + byte % 8);
+    digging.step(digging.next());
+    assert_stopped_by(Fault::kMemoryCorrupt, digging.outputs);
+  }
+}
+
+/// The operator arms again, and the pilot pressure comes back with it.
+TEST(after_a_flipped_bit_the_operator_begins_anew, Digging before) {
+  Digging digging = before;
+  test::flip_bit_at(&Memory::memory(digging.controller), 0);
+  digging.step(digging.next());
+  assert_true(digging.outputs.pilot_cut);
+  assert_latched(Fault::kMemoryCorrupt, digging);
+  assert_false(digging.outputs.pilot_cut);
   // With the deadman released as well: named before it is left.
-  test::flip_bit(Memory::mode(before.controller), 0);
+  test::flip_bit_at(&Memory::memory(before.controller), 0);
   assert_stopped_by(Fault::kMemoryCorrupt, before.step(before.at_rest(false)));
   before.step(before.at_rest(false));
   assert_int_equal(before.outputs.status.mode, EcuMode::kReady);
-}
-
-TEST(a_flipped_bit_of_lambda_stops, Digging before) {
-  for (std::size_t bit = 0; bit < 8 * sizeof(Guarded<double>); ++bit) {
-    Digging digging = before;
-    test::flip_bit(Memory::lambda(digging.controller), bit);
-    digging.step(digging.next());
-    assert_latched(Fault::kMemoryCorrupt, digging);
-  }
-}
-
-TEST(a_flipped_bit_of_an_opening_stops, Digging before) {
-  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-    Digging digging = before;
-    test::flip_bit(Memory::opening(digging.controller)[axis], 17 * axis);
-    digging.step(digging.next());
-    assert_latched(Fault::kMemoryCorrupt, digging);
-  }
 }
 
 /// All that are there are in the set; the first that stopped is the fault.

@@ -3,7 +3,6 @@
 
 #include "firmware/safety/fault_table.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/firmware/flip_bit.hpp"
 
 constexpr EcuMode kModes[] = {EcuMode::kSilent, EcuMode::kReady,    EcuMode::kArmed,
                               EcuMode::kActive, EcuMode::kStopping, EcuMode::kFault};
@@ -24,26 +23,6 @@ TEST(the_first_fault_is_named) {
 ModeDecision decided(const CommonValid& valid, Fault fault, bool centred, bool stop_requested,
                      const Cycle& cycle = {}) {
   return decide_mode({}, cycle, valid, fault, centred, stop_requested);
-}
-
-TEST(a_mode_that_changed_in_memory_is_a_fault, CycleMemory memory) {
-  memory.mode = ModeState{EcuMode::kArmed, Fault::kNone, true};
-  CommonValid valid;
-  valid.enable = valid.automatic = true;
-  assert_int_equal(begin_cycle(memory, true, 0).fault, Fault::kNone);
-  assert_int_equal(begin_cycle(memory, false, 0).fault, Fault::kMemoryCorrupt);
-  assert_int_equal(decide_mode(memory, {}, valid, Fault::kNone, true, false).mode.mode,
-                   EcuMode::kArmed);
-  for (std::size_t bit = 0; bit < 8 * sizeof(memory.mode); ++bit) {
-    CycleMemory flipped = memory;
-    test::flip_bit(flipped.mode, bit);
-    const Cycle cycle = begin_cycle(flipped, true, 0);
-    assert_int_equal(cycle.fault, Fault::kMemoryCorrupt);
-    const ModeState mode = decide_mode(flipped, cycle, valid, Fault::kNone, true, false).mode;
-    assert_int_equal(mode.mode, EcuMode::kFault);
-    assert_int_equal(mode.fault, Fault::kMemoryCorrupt);
-    assert_false(mode.may_arm);
-  }
 }
 
 TEST(each_part_of_the_request_has_its_source) {
@@ -138,10 +117,25 @@ MachineStatus describe(const ModeState& mode, const ModeRequest& request,
   MachineOutputs outputs;
   MachineStatus status;
   end_cycle({request, mode}, valid, memory, outputs, status);
-  assert_int_equal(memory.mode.value().mode, mode.mode);
+  assert_int_equal(memory.mode.mode, mode.mode);
   assert_int_equal(outputs.pilot_known, memory.pilot.known);
   assert_int_equal(outputs.pilot_cut, memory.pilot.kept_cut || cuts_pilot(status.faults));
   return status;
+}
+
+/// Whatever it had become: stopped, and the pilot pressure is gone until the operator arms again.
+TEST(memory_that_was_not_intact_stops, CycleMemory memory) {
+  memory.mode = {EcuMode::kActive, Fault::kNone, true};
+  assert_int_equal(begin_cycle(memory, true, 0).fault, Fault::kNone);
+  assert_int_equal(memory.mode.mode, EcuMode::kActive);
+  assert_false(memory.pilot.kept_cut || memory.pilot.known);
+  const Cycle cycle = begin_cycle(memory, false, 10 * kMillisecondUs);
+  assert_int_equal(cycle.fault, Fault::kMemoryCorrupt);
+  assert_int_equal(cycle.last_mode, EcuMode::kFault);
+  assert_true(memory.pilot.kept_cut && memory.pilot.known);
+  const ModeDecision decision = decide_mode(memory, cycle, {}, Fault::kNone, true, false);
+  assert_int_equal(decision.mode.mode, EcuMode::kFault);
+  assert_int_equal(decision.mode.fault, Fault::kMemoryCorrupt);
 }
 
 TEST(what_stopped_it_is_named_before_what_slows, CommonValid valid) {

@@ -232,7 +232,6 @@ TEST(goes_on_where_it_was) {
   repeat(100, [&] {
     rests = stopped(rests);
     assert_false(rests.runs);
-    assert_true(rests.intact());
     assert_true(rests.state.layers.begun);
     assert_true(rests.state.layers.cuts.height_m == state.layers.cuts.height_m);
     assert_true(rests.state.layers.touched);

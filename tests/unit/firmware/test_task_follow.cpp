@@ -5,7 +5,6 @@
 
 #include "firmware/excavator/swing.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"
-#include "tests/unit/firmware/flip_bit.hpp"
 #include "tests/unit/firmware/task_machine.hpp"
 
 using test::kCycle_s;
@@ -163,30 +162,6 @@ TEST(done_holds_nothing, TaskState state) {
   assert_true(done.wanted_mps.isZero(0.0));
 }
 
-TEST(what_is_remembered_is_intact) {
-  assert_true(TaskMemory{}.intact());
-  const TaskMemory memory = half_way(1);
-  assert_true(memory.intact());
-  const auto flipped = [&memory](auto&& flip) {
-    TaskMemory other = memory;
-    flip(other);
-    return !other.intact();
-  };
-  for (std::size_t bit = 0; bit < 64; ++bit) {
-    assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.state.time_s, bit); }));
-    assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.state.pace_ratio, bit); }));
-    assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.number, bit % 8); }));
-    assert_true(flipped([bit](TaskMemory& m) { test::flip_bit(m.state.step, bit % 32); }));
-  }
-  for (const TaskPhase phase : {TaskPhase::kApproach, TaskPhase::kDone}) {
-    assert_true(flipped([phase](TaskMemory& m) { m.state.phase = phase; }));
-  }
-  assert_true(flipped([](TaskMemory& m) { m.runs = false; }));
-  TaskMemory none;
-  none.runs = true;
-  assert_false(none.intact());
-}
-
 TEST(it_goes_on_or_starts_afresh) {
   const TaskMemory memory = half_way(1);
   const DriveVector travel_m = travel_of(profile(), dig().end);
@@ -196,12 +171,12 @@ TEST(it_goes_on_or_starts_afresh) {
     return after;
   };
   const TaskMemory on = next(memory, 0, 0.25);
-  assert_true(on.runs && on.intact());
+  assert_true(on.runs);
   assert_int_equal(on.state.step, 1);
   assert_near(on.state.time_s, memory.state.time_s + 0.25 * kCycle_s, 1e-12);
   assert_near(next(memory, 0, 0.0).state.time_s, memory.state.time_s, 0.0);
   for (const TaskMemory& afresh : {next(memory, 1, 1.0), next(TaskMemory{}, 1, 1.0)}) {
-    assert_true(afresh.runs && afresh.intact());
+    assert_true(afresh.runs);
     assert_int_equal(afresh.number, 1);
     assert_int_equal(afresh.state.phase, TaskPhase::kApproach);
     assert_near(afresh.state.time_s, 0.0, 0.0);

@@ -10,13 +10,6 @@
 namespace graben {
 namespace {
 
-/// Wide enough for whatever a bit may make of the step.
-std::int64_t place_of(bool runs, std::uint8_t number, const TaskState& state) {
-  const std::int64_t step = state.step;
-  const std::int64_t where = (step * 256 + state.round) * 256 + number;
-  return (where * 4 + static_cast<int>(state.phase)) * 2 + (runs ? 1 : 0);
-}
-
 TeethPose teeth_of(const SwingKinematics& kinematics, const DriveVector& drives) {
   return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value);
 }
@@ -69,13 +62,6 @@ TaskProgress progress_of(const TaskProgram& program, const TaskMemory& memory, c
   return progress;
 }
 
-/// Stores twice what tells where the state is.
-void keep(TaskMemory& memory) {
-  memory.time_s = memory.state.time_s;
-  memory.pace_ratio = memory.state.pace_ratio;
-  memory.place = place_of(memory.runs, memory.number, memory.state);
-}
-
 /// Looks for the way on; runs once it is found. Not inlined: its states would lie on the stack
 /// below a cut's, which is the deepest there is.
 [[gnu::noinline]] void search(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
@@ -103,7 +89,6 @@ void keep(TaskMemory& memory) {
     memory.state.phase = TaskPhase::kDone;
   }
   memory.state.layers = layers;
-  keep(memory);
 }
 
 /// The operator may have moved it a little meanwhile; from elsewhere the task begins anew.
@@ -120,18 +105,11 @@ bool goes_on_from_wait(const SwingKinematics& kinematics, const TaskProgram& pro
 
 }  // namespace
 
-bool TaskMemory::intact() const {
-  return time_s.intact() && pace_ratio.intact() && place.intact() &&
-         time_s.value() == state.time_s && pace_ratio.value() == state.pace_ratio &&
-         place.value() == place_of(runs, number, state);
-}
-
 TaskMemory remembered(std::uint8_t number, const TaskState& state) {
   TaskMemory memory;
   memory.runs = true;
   memory.number = number;
   memory.state = state;
-  keep(memory);
   return memory;
 }
 
@@ -185,7 +163,6 @@ TaskMemory stopped(const TaskMemory& last) {
     memory.state.layers.touched = last.state.layers.touched;
     memory.state.layers.zero_m = last.state.layers.zero_m;
   }
-  memory.place = place_of(false, memory.number, memory.state);
   return memory;
 }
 
@@ -209,7 +186,6 @@ void next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematic
   } else {
     steps_advance(profile, kinematics, program, advance_s, period_s, seen, memory.state);
   }
-  keep(memory);
 }
 
 }  // namespace graben

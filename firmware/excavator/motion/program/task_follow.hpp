@@ -4,7 +4,6 @@
 /// machine's own place lets it, and how it goes on. Travels and velocities of the swing are those
 /// at its lever (SwingProfile).
 
-#include "firmware/core/guarded.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/motion/dig/layer_run.hpp"
 #include "firmware/excavator/motion/program/task_run.hpp"
@@ -16,14 +15,7 @@ struct TaskMemory {
   bool runs = false;
   std::uint8_t number = 0;
   TaskState state;
-  ApproachSearch search;         ///< Until it runs.
-  Guarded<double> time_s = 0.0;  ///< Of the state, like its pace: kept twice.
-  Guarded<double> pace_ratio = 1.0;
-  /// All else that says where it is, in one number; as constructed it does not run.
-  Guarded<std::int64_t> place = 2 * static_cast<int>(TaskPhase::kDone);
-
-  /// True while the state is what it was when it was stored.
-  [[nodiscard]] bool intact() const;
+  ApproachSearch search;  ///< Until it runs.
 };
 
 [[nodiscard]] TaskMemory remembered(std::uint8_t number, const TaskState& state);
