@@ -7,6 +7,9 @@
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
+
+double due_mps(const ServoState& servo) { return servo.lag_mps[0][1] + servo.lag_mps[1][1]; }
+
 namespace {
 
 /// Of what a drive is behind that its load holds.
@@ -14,7 +17,7 @@ constexpr double kForget_s = 0.3;
 
 int dead_cycles(double dead_time_s) {
   return static_cast<int>(
-      std::clamp(dead_time_s / ServoState::kCycle_s + 0.5, 0.0, ServoState::kMostDelayed - 1.0));
+      std::clamp(dead_time_s / kCyclePeriod_s + 0.5, 0.0, ServoState::kMostDelayed - 1.0));
 }
 
 /// Weight of the newest value in one of the two lags.
@@ -31,7 +34,7 @@ double asked_before(const ServoState& servo, int cycles) {
 
 /// What two equal lags, left alone, still give.
 double left_mps(double lag_s, const std::array<double, 2>& lag_mps) {
-  const double newest = newest_share(lag_s, ServoState::kCycle_s);
+  const double newest = newest_share(lag_s, kCyclePeriod_s);
   return (1.0 - newest) / newest * (lag_mps[0] + lag_mps[1]);
 }
 
@@ -47,7 +50,7 @@ double under_way_m(const SpoolAnswers& answer, const ServoState& servo) {
     const double asked_mps = asked_before(servo, n);
     sum_mps += n < (asked_mps > 0.0 ? extending : retracting) ? asked_mps : 0.0;
   }
-  return ServoState::kCycle_s * sum_mps;
+  return kCyclePeriod_s * sum_mps;
 }
 
 void lag(double due_mps, double newest, std::array<double, 2>& lag_mps) {
@@ -55,8 +58,8 @@ void lag(double due_mps, double newest, std::array<double, 2>& lag_mps) {
   lag_mps[1] += newest * (lag_mps[0] - lag_mps[1]);
 }
 
-/// What was asked for goes on its way; the error is as it was.
-void ask(const SpoolAnswers& answer, double asked_mps, double period_s, ServoState& servo) {
+/// One place of the ring on.
+void ask_once(const SpoolAnswers& answer, double asked_mps, double period_s, ServoState& servo) {
   servo.newest = (servo.newest + 1) % ServoState::kMostDelayed;
   servo.asked_mps[static_cast<unsigned>(servo.newest)] = asked_mps;
   const double due_mps = asked_before(servo, dead_cycles(answer.extend.dead_time_s));
@@ -69,7 +72,20 @@ void ask(const SpoolAnswers& answer, double asked_mps, double period_s, ServoSta
     lag(std::max(0.0, due_mps), newest, servo.lag_mps[0]);
     lag(std::min(0.0, back_mps), newest_share(answer.retract.lag_s, period_s), servo.lag_mps[1]);
   }
+}
+
+/// What was asked for goes on its way for all the time that it stood; the error is as it was.
+/// Travel that was due meanwhile.
+double ask(const SpoolAnswers& answer, double asked_mps, double period_s, ServoState& servo) {
+  const int cycles = cycles_in(period_s);
+  const double each_s = period_s / cycles;
+  double due_m = 0.0;
+  for (int n = 0; n < cycles; ++n) {
+    ask_once(answer, asked_mps, each_s, servo);
+    due_m += each_s * due_mps(servo);
+  }
   servo.under_way_m = under_way_m(answer, servo);
+  return due_m;
 }
 
 double within(double value, double most) { return std::min(std::max(value, -most), most); }
@@ -101,8 +117,6 @@ double within_ends(const DriveRow& drive, const ServoState& servo, double wanted
 
 }  // namespace
 
-double due_mps(const ServoState& servo) { return servo.lag_mps[0][1] + servo.lag_mps[1][1]; }
-
 void servo_at_rest(double stroke_m, ServoState& servo) {
   servo = {};
   servo.stroke_m = stroke_m;
@@ -110,8 +124,8 @@ void servo_at_rest(double stroke_m, ServoState& servo) {
 
 void next_servo(const DriveRow& drive, double asked_mps, double stroke_m, double period_s,
                 ServoState& servo, int blocked_side) {
-  ask(drive.answer, asked_mps, period_s, servo);
-  const double behind_m = period_s * due_mps(servo) - (stroke_m - servo.stroke_m);
+  const double due_m = ask(drive.answer, asked_mps, period_s, servo);
+  const double behind_m = due_m - (stroke_m - servo.stroke_m);
   servo.integral_m =
       within(servo.integral_m + unblocked_m(blocked_side, behind_m), drive.feedback.error_most_m);
   if (blocked_side * servo.integral_m > 0.0) {
@@ -124,7 +138,7 @@ void next_servo(const DriveRow& drive, double asked_mps, double stroke_m, double
 
 void next_servo_on_plan(const DriveRow& drive, double asked_mps, double stroke_m, double planned_m,
                         bool new_plan, double period_s, ServoState& servo, int blocked_side) {
-  ask(drive.answer, asked_mps, period_s, servo);
+  static_cast<void>(ask(drive.answer, asked_mps, period_s, servo));
   if (new_plan) {
     servo.bias_mps = 0.0;
   }
@@ -137,7 +151,7 @@ void next_servo_on_plan(const DriveRow& drive, double asked_mps, double stroke_m
 }
 
 void release_servo(const DriveRow& drive, double stroke_m, double period_s, ServoState& servo) {
-  ask(drive.answer, 0.0, period_s, servo);
+  static_cast<void>(ask(drive.answer, 0.0, period_s, servo));
   servo.stroke_m = stroke_m;
   servo.integral_m = 0.0;
   servo.correction_m = 0.0;

@@ -5,14 +5,14 @@
 
 #include <array>
 
+#include "firmware/core/time.hpp"
 #include "firmware/drives/drive_validation.hpp"
 
 namespace graben {
 
 /// State from cycle to cycle, of one drive; as constructed, at rest at stroke 0.
 struct ServoState {
-  static constexpr int kMostDelayed = 64;   ///< Cycles of dead time that can be remembered.
-  static constexpr double kCycle_s = 0.01;  ///< What a place of the ring stands for.
+  static constexpr int kMostDelayed = 64;  ///< Cycles of dead time that can be remembered.
 
   std::array<double, kMostDelayed> asked_mps{};  ///< Ring of the last commands.
   int newest = 0;

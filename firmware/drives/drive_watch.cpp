@@ -50,9 +50,10 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
   state.tried_s = last.sent.tried ? kTriedFor_s : std::max(0.0, state.tried_s - period_s);
   SentCommand sent = last.sent;
   sent.tried = state.tried_s > 0.0;
-  FaultSet stops = watch_spools(drives, sent, seen,
-                                {received, bus.valve_echo, valid.valve_enabled, bus.echo_cycles},
-                                state.spool, state.echo_cycles);
+  FaultSet stops = watch_spools(
+      drives, sent, seen,
+      {received, bus.valve_echo, valid.valve_enabled, bus.echo_cycles, cycles_in(period_s)},
+      state.spool, state.echo_cycles);
   for (int i = 0; i < drives.count(); ++i) {
     if (!drives[i].watch.senses_spool) {
       seen[i].spool_ratio = last.sent.duty_ratio[i];

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/core/time.hpp"
+
 namespace graben {
 namespace {
 
-constexpr double kCycle_s = 0.01;
 constexpr double kAhead_s = 0.02;
 /// Of the travel; far within any dead band.
 constexpr double kHome = 1e-3;
@@ -39,7 +40,7 @@ double led_duty(double time_constant_s, double wanted_ratio, const SpoolModel& s
 }
 
 SpoolModel spool_after(double time_constant_s, double sent_ratio, const SpoolModel& spool) {
-  return time_constant_s > 0.0 ? after(spool, time_constant_s, sent_ratio, kCycle_s)
+  return time_constant_s > 0.0 ? after(spool, time_constant_s, sent_ratio, kCyclePeriod_s)
                                : SpoolModel{sent_ratio, 0.0};
 }
 

@@ -7,8 +7,6 @@
 namespace graben {
 namespace {
 
-constexpr double kCycle_s = 0.01;
-
 CommandHistory::Range widened(CommandHistory::Range range, const double* begin, const double* end) {
   for (const double* sent = begin; sent < end; ++sent) {
     range = {std::min(range.least, *sent), std::max(range.most, *sent)};
@@ -32,17 +30,19 @@ constexpr double kUnknownLag_s = 0.16;
 
 /// Of one spool: it is stuck.
 bool follow(const DriveRow& drive, const SentCommand& command, int i, double spool_ratio,
-            bool received, SpoolState& state) {
+            int cycles, bool received, SpoolState& state) {
   const double duty_ratio = command.duty_ratio[i];
-  state.sent.add(duty_ratio);
   const double starts_s = std::max(spool_starts_s(drive), command.tried ? kUnknownStarts_s : 0.0);
   const double lag_s = std::max(spool_lag_s(drive), command.tried ? kUnknownLag_s : 0.0);
-  const int starting = cycles_under_way(starts_s + kFrameCycles * kCycle_s);
+  const int starting = cycles_under_way(starts_s + kFrameCycles * kCyclePeriod_s);
   // An implicit step: a little slower than the lag itself.
   const double led = duty_ratio + command.lead_ratio[i];
   // A spool faster than the one that is led gets to where the lead points.
-  state.range.follow(widened(state.sent.range(starting), &led, &led + 1),
-                     kCycle_s / (kCycle_s + lag_s));
+  for (int n = 0; n < cycles; ++n) {
+    state.sent.add(duty_ratio);
+    state.range.follow(widened(state.sent.range(starting), &led, &led + 1),
+                       kCyclePeriod_s / (kCyclePeriod_s + lag_s));
+  }
   if (!received) {
     state.wrong_cycles = 0;
     return false;
@@ -76,7 +76,7 @@ void SpoolRange::follow(const CommandHistory::Range& commands, double newest_sha
 }
 
 int cycles_under_way(double time_s) {
-  const double cycles = std::ceil(time_s / kCycle_s);
+  const double cycles = std::ceil(time_s / kCyclePeriod_s);
   return static_cast<int>(std::clamp(cycles, 1.0, double{CommandHistory::kMostCycles}));
 }
 
@@ -84,8 +84,8 @@ FaultSet watch_spools(DriveRows drives, const SentCommand& sent, Span<const Vali
                       const ValveFeedback& feedback, Span<SpoolState> spool, int& echo_cycles) {
   FaultSet faults;
   for (int i = 0; i < drives.count(); ++i) {
-    if (drives[i].watch.senses_spool &&
-        follow(drives[i], sent, i, seen[i].spool_ratio, feedback.received, spool[i])) {
+    if (drives[i].watch.senses_spool && follow(drives[i], sent, i, seen[i].spool_ratio,
+                                               feedback.cycles, feedback.received, spool[i])) {
       faults.add(Fault::kSpoolStuck);
     }
   }

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "firmware/core/fault_set.hpp"
+#include "firmware/core/time.hpp"
 #include "firmware/drives/drive_validation.hpp"
 
 namespace graben {
@@ -77,6 +78,7 @@ struct ValveFeedback {
   bool has_echo = true;           ///< The bus carries the valve side's echo of our enable.
   bool enabled = false;           ///< That echo.
   int echo_cycles = kEchoCycles;  ///< It has so many to come.
+  int cycles = 1;                 ///< Since the last ones were seen (cycles_in).
 };
 
 /// kSpoolStuck, kValveNotFollowing; the states go on by a cycle. A spool must lie in its

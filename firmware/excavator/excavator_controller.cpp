@@ -30,7 +30,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
                   inputs.link.stop_requested);
   ExcavatorOutputs outputs;
   const SentDuties sent = put_out(machine_, valid, is.inputs, is.estimates, motion, is.limits,
-                                  followed, cycle.period_s, is.last, decision, is.output, outputs);
+                                  followed, cycle, is.last, decision, is.output, outputs);
   end_cycle(decision, valid, is.cycle, outputs, outputs.status);
   tell_seen(machine_, is.inputs, is.estimates, outputs.status);
   if (decision.active()) {

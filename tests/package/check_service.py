@@ -42,7 +42,8 @@ NOTES = {
     "removed": {"ActiveState": "inactive", "LoadState": "not-found"},
 }
 # What service.sh brings about, told as an error; and what only an emulated machine lacks.
-TOLD = ["graben-ecu: profile 'nothing': there is no such file, nor one of that name in /etc/graben, /usr/share/graben",
+TOLD = ["graben-ecu: profile 'nothing': there is no such file, nor one of that name in /etc/graben, /usr/share/graben; "
+        "wanted: a file or one of dozer_9t, excavator_12t, excavator_22t",
         "graben-ecu: can0: the interface is down (ip -details link show can0)"]
 EXPECTED_WARNINGS = re.compile(
     r"graben-ecu.service: (Failed with result|Main process exited|Watchdog timeout)"

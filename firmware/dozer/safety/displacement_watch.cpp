@@ -35,7 +35,9 @@ DisplacementResult watch_displacement(const DisplacementLimits& limits, Displace
   const DisplacementCourse last = state.course;
   DisplacementCourse& course = state.course;
   course = {};
-  state.sent.add(sent);
+  for (int n = 0; n < cycles_in(period_s); ++n) {
+    state.sent.add(sent);
+  }
   if (task == DisplacementTask::kNone) {
     return result;
   }

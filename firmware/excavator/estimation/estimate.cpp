@@ -61,8 +61,9 @@ void weigh(const ExcavatorProfile& profile, const OilSeen& seen, EcuMode mode,
 }
 
 void estimate_oil(const ExcavatorModel& machine, const OilGains& gains, const ExcavatorValid& valid,
-                  const InputState& inputs, bool for_oil, EcuMode mode, const LastCycle& last,
+                  const InputState& inputs, bool for_oil, const Cycle& cycle, const LastCycle& last,
                   EstimationState& state) {
+  const EcuMode mode = cycle.last_mode;
   const ExcavatorProfile& profile = machine.profile;
   if (!is_on_oil(profile)) {
     return;
@@ -70,6 +71,7 @@ void estimate_oil(const ExcavatorModel& machine, const OilGains& gains, const Ex
   HeldLoad& held = state.held;
   held.yield_mpsn = last.flow.yield_mpsn;
   OilSeen seen = oil_seen(machine.drives, valid.drive);
+  seen.cycles = cycles_in(cycle.elapsed_s);
   for (int axis = 0; axis < 2; ++axis) {
     const auto k = static_cast<unsigned>(axis);
     seen.asked_mps[axis] = last.commands.asked_mps[k];
@@ -89,7 +91,7 @@ void estimate_oil(const ExcavatorModel& machine, const OilGains& gains, const Ex
   if (reached) {
     next_held_load(state.oil, seen.expected_mps,
                    stroke_inertia_kg(profile.oil, profile.geometry, state.pose, state.payload_kg),
-                   held);
+                   seen.cycles, held);
   }
 }
 
@@ -144,7 +146,7 @@ void estimate(const ExcavatorModel& machine, const OilGains& gains, const Excava
   if (!profile.bus.pressures) {
     state.load = links_alone(profile, state.pose);
   }
-  estimate_oil(machine, gains, valid, inputs, motion.for_oil, cycle.last_mode, last, state);
+  estimate_oil(machine, gains, valid, inputs, motion.for_oil, cycle, last, state);
   estimate_load(machine, valid, inputs, motion, cycle, state);
 }
 

@@ -36,9 +36,6 @@ Duties open_as_learnt(const ExcavatorModel& machine, const InputState& inputs,
   return duty_ratio;
 }
 
-/// Time constants of the spools that are led, in this cycle.
-using LedThrough = std::array<double, 2>;
-
 LedThrough led_through(const ExcavatorModel& machine, const Duties& wanted,
                        const OutputState& state) {
   LedThrough time_s{};
@@ -49,23 +46,33 @@ LedThrough led_through(const ExcavatorModel& machine, const Duties& wanted,
   return time_s;
 }
 
+/// The spools that are led, a cycle on with what was sent.
+void spools_after(OutputState& state) {
+  for (unsigned k = 0; k < state.led_s.size(); ++k) {
+    state.spool[k] = spool_after(state.led_s[k], state.sent[k], state.spool[k]);
+  }
+}
+
 /// `wanted` through the gate, led through the spools' lag if `leads`.
 GateResult send(const ExcavatorModel& machine, bool active, bool leads, const Duties& wanted,
-                double period_s, OutputState& state, Duties& duty_ratio) {
+                const Cycle& cycle, OutputState& state, Duties& duty_ratio) {
+  // The spools have gone on by one cycle; by more, if this one comes late.
+  for (int n = 1; n < cycles_in(cycle.elapsed_s); ++n) {
+    spools_after(state);
+  }
   Duties led = wanted;
   const LedThrough time_s = led_through(machine, wanted, state);
   for (unsigned k = 0; leads && k < time_s.size(); ++k) {
     led[k] = led_duty(time_s[k], wanted[k], state.spool[k]);
   }
   const GateResult gated =
-      gate_duties(machine.drives, active, led, period_s, state.sent, duty_ratio);
+      gate_duties(machine.drives, active, led, cycle.period_s, state.sent, duty_ratio);
   if (!leads || !gated.enable) {
     state.spool = {};
     return gated;
   }
-  for (unsigned k = 0; k < time_s.size(); ++k) {
-    state.spool[k] = spool_after(time_s[k], duty_ratio[k], state.spool[k]);
-  }
+  state.led_s = time_s;
+  spools_after(state);
   return gated;
 }
 
@@ -92,21 +99,21 @@ void demand_pumps(const ExcavatorModel& machine, const ExcavatorValid& valid,
 
 SentDuties put_out(const ExcavatorModel& machine, const ExcavatorValid& valid,
                    const InputState& inputs, const EstimationState& estimates, const Motion& motion,
-                   const LimitState& limits, const Followed& followed, double period_s,
+                   const LimitState& limits, const Followed& followed, const Cycle& cycle,
                    const LastCycle& last, ModeDecision& decision, OutputState& state,
                    ExcavatorOutputs& outputs) {
   SentDuties sent;
   if (decision.active()) {
     if (motion.tries) {
-      step_duties(machine.drives, inputs.tried_ratio, period_s, state.sent, sent.duty_ratio);
+      step_duties(machine.drives, inputs.tried_ratio, cycle.period_s, state.sent, sent.duty_ratio);
       state.opening = {};
     } else {
-      sent.duty_ratio = open_as_learnt(machine, inputs, limits, followed, period_s, state);
+      sent.duty_ratio = open_as_learnt(machine, inputs, limits, followed, cycle.period_s, state);
     }
   }
   const bool leads = is_on_oil(machine.profile) && !motion.tries;
   const GateResult gated =
-      send(machine, decision.active(), leads, sent.duty_ratio, period_s, state, outputs.duty_ratio);
+      send(machine, decision.active(), leads, sent.duty_ratio, cycle, state, outputs.duty_ratio);
   take_refusal(gated.fault, decision);
   outputs.enable = gated.enable;
   if (!gated.enable) {
@@ -116,7 +123,7 @@ SentDuties put_out(const ExcavatorModel& machine, const ExcavatorValid& valid,
   for (unsigned k = 0; k < kDriveCount; ++k) {
     sent.lead_ratio[k] = outputs.duty_ratio[k] - sent.duty_ratio[k];
   }
-  demand_pumps(machine, valid, inputs, estimates, motion, decision.active(), period_s, last,
+  demand_pumps(machine, valid, inputs, estimates, motion, decision.active(), cycle.period_s, last,
                state.pumps);
   outputs.swash_ratio = state.pumps.swash_ratio;
   return sent;

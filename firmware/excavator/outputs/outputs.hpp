@@ -9,11 +9,15 @@
 
 namespace graben {
 
+/// Time constants of the spools that are led; 0 of one that is not.
+using LedThrough = std::array<double, 2>;
+
 /// State from cycle to cycle.
 struct OutputState {
   std::array<double, kDriveCount> opening{};  ///< x / x_m at work.
   std::array<double, kDriveCount> sent{};     ///< Duties that the gate let through.
   std::array<SpoolModel, kDriveCount> spool;
+  LedThrough led_s{};
   PumpDemand pumps;
 };
 
@@ -29,8 +33,8 @@ struct SentDuties {
 [[nodiscard]] SentDuties put_out(const ExcavatorModel& machine, const ExcavatorValid& valid,
                                  const InputState& inputs, const EstimationState& estimates,
                                  const Motion& motion, const LimitState& limits,
-                                 const Followed& followed, double period_s, const LastCycle& last,
-                                 ModeDecision& decision, OutputState& state,
+                                 const Followed& followed, const Cycle& cycle,
+                                 const LastCycle& last, ModeDecision& decision, OutputState& state,
                                  ExcavatorOutputs& outputs);
 
 }  // namespace graben

@@ -165,6 +165,15 @@ TEST(what_blocks_is_what_is_there, ModeRequest request) {
   assert_false(blocks(ArmBlock::kBus));
 }
 
+TEST(a_command_stands_for_the_cycles_until_the_next) {
+  for (const double one_s : {0.0, 0.0005, 0.01, 0.0149, 0.0551, 1.0, -1.0}) {
+    assert_int_equal(cycles_in(one_s), 1);
+  }
+  assert_int_equal(cycles_in(0.0151), 2);
+  assert_int_equal(cycles_in(0.03), 3);
+  assert_int_equal(cycles_in(0.05), kMostCyclesLate);
+}
+
 /// A controller that is called after so much time.
 struct Clock {
   TimeState state;

@@ -86,6 +86,20 @@ TEST(a_cylinder_as_expected_owes_nothing) {
   }
 }
 
+/// A cycle that comes late finds the drive where as many cycles in time have brought it.
+TEST(a_late_cycle_owes_nothing_either) {
+  Run run(0.04, 1.0);
+  ExcavatorServo late = run.servo;
+  repeat(20, [&] {
+    run.run(3, 0.1);
+    const DriveVector strokes_m = of(run.servo, &ServoState::stroke_m);
+    late = next_servo(run.profile, late, {0.1, 0.0, 0.0, 0.0}, strokes_m, 3.0 * kPeriod_s);
+    assert_near(of(late, &ServoState::integral_m)[0], 0.0, 1e-9);
+    assert_near(of(late, &ServoState::under_way_m)[0], of(run.servo, &ServoState::under_way_m)[0],
+                1e-9);
+  });
+}
+
 /// One that does nine tenths owes the tenth, no more than its bound, and only on its own axis.
 TEST(a_slow_cylinder_owes_what_it_lacks) {
   Run run(0.0, 0.9);

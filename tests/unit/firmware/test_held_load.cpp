@@ -26,13 +26,13 @@ TEST(a_giving_line_is_opened_for_load_and_push) {
   HeldLoad held;
   OilState oil = settled(200e3);
   oil.force_n = {260e3, 0.0};
-  next_held_load(oil, Eigen::Vector2d::Zero(), inertia_kg, held);
+  next_held_load(oil, Eigen::Vector2d::Zero(), inertia_kg, 1, held);
   assert_false(held.leads);
   held.yield_mpsn = {5e-7, 0.0};
   double due_mps = 0.0;
   for (int n = 0; n < 100; ++n) {
     due_mps += 0.01 * 0.3;
-    next_held_load(oil, {due_mps, 0.0}, inertia_kg, held);
+    next_held_load(oil, {due_mps, 0.0}, inertia_kg, 1, held);
   }
   assert_true(held.leads);
   assert_near(held.force_n[0], 200e3 + 1e5 * 0.3, 100.0);

@@ -158,10 +158,10 @@ struct OneMode {
     lags[0] += newest * (sent[static_cast<unsigned>(late_cycles)] - lags[0]);
     lags[1] += newest * (lags[0] - lags[1]);
     const double flow = 0.5 * (before + lags[1]);
-    const ModeTurn turn = mode_turn(omega_radps);
+    const ModeTurn turn = mode_turn(omega_radps, kCyclePeriod_s);
     const double beyond = state[1] - flow;
     const double balance = state[2] + load_m;
-    state = {state[0] + kOilCycle_s * flow + turn.travel_of_speed_s * beyond +
+    state = {state[0] + kCyclePeriod_s * flow + turn.travel_of_speed_s * beyond +
                  turn.travel_of_balance * balance,
              flow + turn.cosine * beyond + turn.speed_of_balance_ps * balance,
              turn.cosine * balance - turn.travel_of_speed_s * beyond - load_m};

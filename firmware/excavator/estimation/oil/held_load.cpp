@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "firmware/excavator/estimation/oil/oil_cycle.hpp"
+#include "firmware/core/time.hpp"
 
 namespace graben {
 namespace {
@@ -14,12 +14,13 @@ constexpr double kPush_s = 0.03;
 /// Of the oil's weight, from which on its law decides.
 constexpr double kLeads = 0.5;
 
-double share_of_newest(double lag_s) { return kOilCycle_s / (kOilCycle_s + lag_s); }
+double share_of_newest(double lag_s, double time_s) { return time_s / (time_s + lag_s); }
 
 }  // namespace
 
 void next_held_load(const OilState& oil, const Eigen::Vector2d& due_mps,
-                    const Eigen::Matrix2d& inertia_kg, HeldLoad& held) {
+                    const Eigen::Matrix2d& inertia_kg, int cycles, HeldLoad& held) {
+  const double time_s = kCyclePeriod_s * cycles;
   held.gives_way = oil.weight > 0.0 && (held.gives_way || !held.yield_mpsn.isZero(0.0));
   held.leads = held.gives_way && oil.weight > kLeads;
   if (!held.gives_way) {
@@ -28,10 +29,10 @@ void next_held_load(const OilState& oil, const Eigen::Vector2d& due_mps,
     held.load_n = -oil.load_n;
     return;
   }
-  const Eigen::Vector2d push_mps2 = (due_mps - held.due_mps) / kOilCycle_s;
+  const Eigen::Vector2d push_mps2 = (due_mps - held.due_mps) / time_s;
   held.due_mps = due_mps;
-  held.push_mps2 += share_of_newest(kPush_s) * (push_mps2 - held.push_mps2);
-  held.load_n += share_of_newest(kLoad_s) * (-oil.load_n - held.load_n);
+  held.push_mps2 += share_of_newest(kPush_s, time_s) * (push_mps2 - held.push_mps2);
+  held.load_n += share_of_newest(kLoad_s, time_s) * (-oil.load_n - held.load_n);
   held.force_n = held.load_n + inertia_kg * held.push_mps2;
 }
 

@@ -28,10 +28,10 @@ struct HeldLoad {
   Eigen::Vector2d yield_mpsn = Eigen::Vector2d::Zero();
 };
 
-/// A cycle on: `oil` after it, `due_mps` as the path has asked for it, `inertia_kg` of
-/// stroke_inertia_kg(). It leads where the oil's law does, once an opening has given way.
+/// `cycles` on (cycles_in): `oil` after them, `due_mps` as the path has asked for it, `inertia_kg`
+/// of stroke_inertia_kg(). It leads where the oil's law does, once an opening has given way.
 void next_held_load(const OilState& oil, const Eigen::Vector2d& due_mps,
-                    const Eigen::Matrix2d& inertia_kg, HeldLoad& held);
+                    const Eigen::Matrix2d& inertia_kg, int cycles, HeldLoad& held);
 
 /// The input with the pressures of boom and arm changed until their force is the held one.
 [[nodiscard]] McvInput opened_for(const HeldLoad& held, DriveRows drives, const McvInput& input);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/core/time.hpp"
 #include "firmware/excavator/estimation/oil/oil_cycle.hpp"
 
 namespace graben {
@@ -57,7 +58,7 @@ Matrix5 riccati(Matrix5 a, Matrix5 g, Matrix5 q) {
 
 /// Of travel, speed, balance, first and second lag.
 Vector5 feedback_of(const OilDesign& design, double omega_radps) {
-  const ModeTurn turn = mode_turn(omega_radps);
+  const ModeTurn turn = mode_turn(omega_radps, kCyclePeriod_s);
   const double newest = newest_of_lag(design.lag_s);
   Vector5 flow = Vector5::Zero();  // Mean of the second lag in a cycle.
   flow[3] = 0.5 * newest * (1.0 - newest);
@@ -68,7 +69,7 @@ Vector5 feedback_of(const OilDesign& design, double omega_radps) {
   step.row(1) << 0.0, turn.cosine, turn.speed_of_balance_ps, 0.0, 0.0;
   step.row(2) << 0.0, -turn.travel_of_speed_s, turn.cosine, 0.0, 0.0;
   Vector5 of_flow = Vector5::Zero();
-  of_flow.head<3>() << kOilCycle_s - turn.travel_of_speed_s, 1.0 - turn.cosine,
+  of_flow.head<3>() << kCyclePeriod_s - turn.travel_of_speed_s, 1.0 - turn.cosine,
       turn.travel_of_speed_s;
   step += of_flow * flow.transpose();
   step(3, 3) = 1.0 - newest;
@@ -97,16 +98,17 @@ Eigen::Matrix2d inverse_of(const Eigen::Matrix2d& m) {
 /// Of travel, speed, compression, load, flow error.
 Eigen::Matrix<double, ModeGains::kStates, 2> observer_of(const OilDesign& design,
                                                          double omega_radps) {
-  const ModeTurn turn = mode_turn(omega_radps);
+  const ModeTurn turn = mode_turn(omega_radps, kCyclePeriod_s);
   const double late_s = turn.travel_of_speed_s;
   Matrix5 step = Matrix5::Identity();
-  step.row(0) << 1.0, late_s, turn.travel_of_balance, turn.travel_of_balance, kOilCycle_s - late_s;
+  step.row(0) << 1.0, late_s, turn.travel_of_balance, turn.travel_of_balance,
+      kCyclePeriod_s - late_s;
   step.row(1) << 0.0, turn.cosine, turn.speed_of_balance_ps, turn.speed_of_balance_ps,
       1.0 - turn.cosine;
   step.row(2) << 0.0, -late_s, turn.cosine, turn.cosine - 1.0, late_s;
   Vector5 drift;
-  drift << kLeastTravel_m2, kLeastSpeed_m2ps2, kLeastSpeed_m2ps2, kOilCycle_s * design.load_m2ps,
-      kOilCycle_s * design.flow_m2ps3;
+  drift << kLeastTravel_m2, kLeastSpeed_m2ps2, kLeastSpeed_m2ps2, kCyclePeriod_s * design.load_m2ps,
+      kCyclePeriod_s * design.flow_m2ps3;
   Eigen::Matrix<double, 2, ModeGains::kStates> seen;
   seen << 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0;
   const Eigen::Matrix2d noise = Eigen::Vector2d(design.travel_noise_m * design.travel_noise_m,

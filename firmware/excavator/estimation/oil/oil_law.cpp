@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "firmware/core/time.hpp"
 #include "firmware/excavator/estimation/oil/oil_cycle.hpp"
 
 namespace graben {
@@ -30,21 +31,26 @@ void begin(const OilSeen& seen, OilState& state) {
   state.load_n = -state.force_n;
 }
 
-/// Mean flow of the cycle that ends now.
+/// Mean flow of the time that ends now.
 Eigen::Vector2d next_flow_mps(double lag_s, const OilSeen& seen, OilState& state) {
   const double newest = newest_of_lag(lag_s);
-  const Eigen::Vector2d before_mps = seconds(state.asked);
-  for (unsigned axis = 0; axis < 2; ++axis) {
-    advance(newest, seen.asked_mps[axis], state.asked[axis]);
-    advance(newest, seen.expected_mps[axis], state.expected[axis]);
+  Eigen::Vector2d twice_mps = Eigen::Vector2d::Zero();
+  for (int n = 0; n < seen.cycles; ++n) {
+    twice_mps += seconds(state.asked);
+    for (unsigned axis = 0; axis < 2; ++axis) {
+      advance(newest, seen.asked_mps[axis], state.asked[axis]);
+      advance(newest, seen.expected_mps[axis], state.expected[axis]);
+    }
+    twice_mps += seconds(state.asked);
   }
-  return 0.5 * (before_mps + seconds(state.asked));
+  return 0.5 / seen.cycles * twice_mps;
 }
 
 /// Speed that the flow is less by the force it meets; implicit, so that no yield rings.
 Eigen::Vector2d given_way_mps(const OilModes& modes, const OilSeen& seen, const OilState& state) {
   const Eigen::Vector2d in_cycle =
-      Eigen::Vector2d::Ones() + kOilCycle_s * modes.stiffness_npm.cwiseProduct(seen.yield_mpsn);
+      Eigen::Vector2d::Ones() +
+      kCyclePeriod_s * seen.cycles * modes.stiffness_npm.cwiseProduct(seen.yield_mpsn);
   return seen.yield_mpsn.cwiseProduct(state.force_n - seen.opened_for_n).cwiseQuotient(in_cycle);
 }
 
@@ -68,7 +74,8 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
     begin(seen, state);
     return;
   }
-  const double step = kHandOver_ps * kOilCycle_s;
+  const double time_s = kCyclePeriod_s * seen.cycles;
+  const double step = kHandOver_ps * time_s;
   state.weight = std::clamp(state.weight + (leads ? step : -step), 0.0, 1.0);
   const Eigen::Vector2d kept_mps = state.flow_error_mps;
   const Eigen::Vector2d asked_mps =
@@ -86,12 +93,12 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
   const Eigen::Vector2d seen_travel = modes.inverse * seen.stroke_m;
   const Eigen::Vector2d seen_oil = compression(seen.force_n);
   for (int j = 0; j < 2; ++j) {
-    const ModeTurn turn = mode_turn(modes.omega_radps[j]);
+    const ModeTurn turn = mode_turn(modes.omega_radps[j], time_s);
     const double total = flow[j] + error[j];
     const double balance = oil[j] + load[j];
     const double beyond = speed[j] - total;
     travel[j] +=
-        kOilCycle_s * total + turn.travel_of_speed_s * beyond + turn.travel_of_balance * balance;
+        time_s * total + turn.travel_of_speed_s * beyond + turn.travel_of_balance * balance;
     speed[j] = total + turn.cosine * beyond + turn.speed_of_balance_ps * balance;
     oil[j] = turn.cosine * balance - turn.travel_of_speed_s * beyond - load[j];
     const Eigen::Vector2d missed(seen_travel[j] - travel[j],

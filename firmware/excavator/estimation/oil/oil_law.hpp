@@ -40,6 +40,7 @@ struct OilSeen {
   Eigen::Vector2d opened_for_n = Eigen::Vector2d::Zero();
   Eigen::Vector2d yield_mpsn = Eigen::Vector2d::Zero();
   bool force_known = false;
+  int cycles = 1;  ///< Since it was last seen (cycles_in).
   /// Its spool is open, but its line does not press as hard as its load yet: no flow moves it, and
   /// none is missing.
   Eigen::Array<bool, 2, 1> stands = Eigen::Array<bool, 2, 1>::Constant(false);
