@@ -63,8 +63,7 @@ class Sealed {
   static constexpr Word kOfNothing = static_cast<Word>(0x5A96'3C69'A55A'C396ULL);
 
   /// Words that are read side by side: a word at a time costs 2.5 times as many instructions.
-  static constexpr std::size_t kAtOnce = 16;
-  using Row = std::array<Word, kAtOnce>;
+  using Row = std::array<Word, 16>;
 
   [[nodiscard]] Word word_of_all() const {
     const auto* bytes =
@@ -80,7 +79,7 @@ class Sealed {
       odd ^= row[1] ^ row[3] ^ row[5] ^ row[7] ^ row[9] ^ row[11] ^ row[13] ^ row[15];
     }
     for (std::size_t at = kInRows; at < sizeof(T); at += sizeof(Word)) {
-      Word word;
+      Word word = 0;
       std::memcpy(&word, bytes + at, sizeof word);
       even ^= word;
     }
