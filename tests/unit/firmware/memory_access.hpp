@@ -9,6 +9,11 @@
 namespace graben {
 
 struct ControllerMemoryAccess {
+  /// Of a node on a bus.
+  template <class Ecu>
+  static auto& controller(Ecu& ecu) {
+    return ecu.controller_;
+  }
   static auto& memory(ExcavatorController& controller) { return controller.memory_; }
   static auto& last(ExcavatorController& controller) { return controller.memory_->last.commands; }
 };

@@ -378,10 +378,14 @@ void layer_advance(const ExcavatorProfile& profile, const SwingKinematics& kinem
                    const CutSeen& seen, TaskState& state) {
   const LayerRun run(profile, kinematics, program, advance_s, period_s, seen);
   if (state.phase == TaskPhase::kApproach) {
+    const int leg = state.step;
     state = task_advance(profile.line, program, state, advance_s, period_s, seen.behind_m);
     if (state.phase != TaskPhase::kApproach) {
-      // By the move that leads to the cut: it may not be the first.
+      // By the move that leads to the cut: it may not be the first. It begins where the approach
+      // ends.
       state.phase = TaskPhase::kApproach;
+      state.step = leg;
+      state.time_s = approach_leg(state.approach, program, leg).ramp.duration_s;
       run.begin((program.layers.step + program.step_count - 1) % program.step_count, state);
       state.phase = state.layers.cuts.met ? TaskPhase::kDone : TaskPhase::kSteps;
     }

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// An area that is dug in layers, paused with the bucket in the air in every way that there is: the
+// dig goes on where it was.
+
+#include <optional>
+
+#include "app/runs/excavator_rig.hpp"
+#include "app/runs/scenarios.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/memory_access.hpp"
+
+/// A shipped task in loam, whose first cut is done.
+struct Digging {
+  explicit Digging(const char* task) {
+    scenario.task = task;
+    scenario.soil = "loam";
+    const machines::SimulatedExcavator machine = runs::arranged(
+        machines::load_simulated_excavator(machines::find_profile("excavator_12t")), scenario);
+    const TaskProgram program = runs::planned_task(scenario, machine.profile).result.program;
+    TaskBook book;
+    book.program[0] = program;
+    book.count = 1;
+    rig.emplace(machine, book, program.start, 1.0);
+    run_until([this] { return layers().cuts.cuts >= 1; });
+  }
+
+  [[nodiscard]] const LayerState& layers() {
+    auto& controller = ControllerMemoryAccess::controller(*rig->ecu);
+    return ControllerMemoryAccess::memory(controller)->motion.task.state.layers;
+  }
+  [[nodiscard]] const ExcavatorStatus& status() const { return rig->ecu->outputs().status; }
+  [[nodiscard]] bool is_done() const { return status().progress.kind == StepKind::kDone; }
+  void step() {
+    now_us += runs::AutodigRig::kPeriod_us;
+    rig->step(now_us);
+  }
+  template <class Reached>
+  void run_until(Reached&& reached) {
+    const TimeUs latest_us = now_us + 120 * kSecondUs;
+    do {
+      step();
+      assert_true(now_us < latest_us);
+    } while (!reached());
+  }
+  /// The operator asks for no task for so long, and then for it anew.
+  void rest(TimeUs pause_us) {
+    rig->driver.set_schedule(
+        {{0, {true, OperatorMode::kAutomatic, Task::kNone, 0.0}},
+         {now_us + pause_us, {true, OperatorMode::kAutomatic, Task::kProgram, 1.0}}});
+    const TimeUs until_us = now_us + pause_us;
+    run_until([&] { return now_us > until_us; });
+  }
+  /// He lets go of the deadman, and a second later gives enable and task anew.
+  void begin_anew() {
+    rig->enable_from(now_us + kSecondUs);
+    run_until([this] { return status().mode != EcuMode::kActive; });
+  }
+  /// His frames do not come, which is a fault.
+  void be_silent() {
+    rig->driver.set_silent(true);
+    run_until([this] { return status().mode == EcuMode::kFault; });
+    rig->driver.set_silent(false);
+    begin_anew();
+  }
+  /// He drives by hand for a while.
+  void drive_by_hand() {
+    rig->driver.set_schedule({{0, {false, OperatorMode::kManual, Task::kNone, 0.0}}});
+    repeat(200, [this] { step(); });
+    begin_anew();
+  }
+  /// What was dug is known when the task runs again, and until it cuts again.
+  template <class Stop>
+  void goes_on_after(Stop&& stop) {
+    run_until([this] { return status().progress.kind == StepKind::kSwing || is_done(); });
+    if (is_done()) {
+      return;
+    }
+    ++pauses;
+    const CutState before = layers().cuts;
+    const double zero_m = layers().zero_m;
+    stop();
+    run_until([this] { return status().mode == EcuMode::kActive && status().progress.runs; });
+    assert_true(layers().begun && layers().touched);
+    assert_near(layers().zero_m, zero_m, 0.0);
+    assert_true(layers().cuts.height_m == before.height_m);
+    run_until([this] { return layers().phase == CutPhase::kCuts || is_done(); });
+    assert_true(layers().cuts.height_m == before.height_m);
+  }
+
+  runs::TaskScenario scenario;
+  std::optional<runs::AutodigRig> rig;
+  TimeUs now_us = 0;
+  int pauses = 0;
+};
+
+/// The operator's frames come every 20 ms: a pause of one cycle is goes_on_where_it_was's.
+TEST(a_dig_goes_on_in_every_area) {
+  for (const char* task : {"trench", "slope", "level", "bench", "truck_loading"}) {
+    Digging dig(task);
+    for (const int cycles : {2, 100}) {
+      dig.goes_on_after([&] { dig.rest(cycles * runs::AutodigRig::kPeriod_us); });
+    }
+    dig.goes_on_after([&] { dig.be_silent(); });
+    dig.goes_on_after([&] { dig.drive_by_hand(); });
+    print_message("%s: %d pauses, %d cuts\n", task, dig.pauses, dig.layers().cuts.cuts);
+    assert_true(dig.pauses >= 3);  // The smallest area has four cuts.
+  }
+}
