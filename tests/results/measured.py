@@ -16,7 +16,7 @@ import subprocess
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What a thorough run writes itself is no other state of the sources.
 WRITTEN = ("tests/README.md", "tests/timing/counts/observed.json",
-           "tests/memory/observed.toml")
+           "tests/memory/observed.toml", "tests/gates/whole_run.toml")
 
 
 class Failure(Exception):
