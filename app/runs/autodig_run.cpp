@@ -8,7 +8,7 @@
 #include "app/machines/task_text.hpp"
 #include "app/runs/excavator_rig.hpp"
 #include "app/runs/fence_truth.hpp"
-#include "firmware/excavator/motion/dig/layer_run.hpp"
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/dig/step_round.hpp"
 #include "firmware/excavator/motion/program/task_run.hpp"
 

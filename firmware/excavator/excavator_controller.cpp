@@ -51,8 +51,7 @@ Motion ExcavatorController::next_motion(const ExcavatorValid& valid, const Cycle
   estimate(machine_, sources_.oil, valid, is.inputs, under_way, cycle, is.last, is.estimates);
   Motion motion = wanted_motion(machine_, sources_, valid, is.inputs, is.estimates, cycle.period_s,
                                 is.last, is.motion);
-  hold_back(machine_, valid, is.inputs, is.estimates, is.motion, cycle.period_s, is.last, motion,
-            is.limits);
+  hold_back(machine_, valid, is.inputs, is.estimates, cycle.period_s, is.last, motion, is.limits);
   return motion;
 }
 

@@ -69,15 +69,14 @@ McvInput valve_input(const ExcavatorModel& machine, const DriveVector& wanted_mp
 }
 
 void hold_back(const ExcavatorModel& machine, const ExcavatorValid& valid, const InputState& inputs,
-               const EstimationState& estimates, const MotionMemory& task, double period_s,
-               const LastCycle& last, Motion& motion, LimitState& state) {
+               const EstimationState& estimates, double period_s, const LastCycle& last,
+               Motion& motion, LimitState& state) {
   ease_blocked(machine, inputs.watch.drives.blocked, motion);
   if (motion.fences == nullptr) {
     slow_at_ends(machine.drives, valid.drive, span_of(motion.corrected_mps), motion.cap);
   } else {
     const bool by_lever = is_by_lever(valid.task);
-    hold_at_fences(machine, inputs, estimates, by_lever ? 0.0 : task.task.state.layers.zero_m, last,
-                   motion);
+    hold_at_fences(machine, inputs, estimates, motion.zero_m, last, motion);
     if (by_lever && motion.cap.limit.kind == LimitKind::kNone) {
       motion.cap.limit = motion.hand.cap.limit;
     }

@@ -40,8 +40,8 @@ struct Followed {
 /// corrections would reverse them for little. Not inlined, for the stack below the solver.
 [[gnu::noinline]] void hold_back(const ExcavatorModel& machine, const ExcavatorValid& valid,
                                  const InputState& inputs, const EstimationState& estimates,
-                                 const MotionMemory& task, double period_s, const LastCycle& last,
-                                 Motion& motion, LimitState& state);
+                                 double period_s, const LastCycle& last, Motion& motion,
+                                 LimitState& state);
 
 /// How fast that may be followed, by the pumps' flow.
 [[nodiscard]] Followed flow_limited(const ExcavatorModel& machine, const ExcavatorValid& valid,

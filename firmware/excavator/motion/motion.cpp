@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/excavator/motion/motion.hpp"
 
-#include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/on_oil.hpp"
 #include "firmware/excavator/swing.hpp"
 
@@ -106,6 +105,7 @@ void follow(const Known& of, const TaskProgram& program, const MotionMemory& sta
                      swing_lead_mps(profile, swing_mps, of.last.swing_wanted_mps, of.period_s) +
                      swing_damping_mps(profile, of.estimates.swing_push));
   motion.fences = &program.fences;
+  motion.zero_m = state.task.state.dug.zero_m;
   motion.path_error_m = motion.task.path_error_m;
   motion.off_m = motion.task.off_m;
 }
@@ -151,8 +151,7 @@ MotionUnderWay motion_under_way(const ExcavatorModel& machine, const TaskBook& b
   motion.on_plan = state.aim.kind != StepKind::kNone || hand.plans;
   motion.new_plan = hand.plans ? hand.is_new : state.task.state.time_s == 0.0;
   motion.planned_m = hand.plans ? hand.planned_m : travel_of(machine.profile, state.aim.value);
-  motion.for_oil =
-      valid.task == Task::kDig || (program != nullptr && cuts(*program, state.task.state));
+  motion.for_oil = valid.task == Task::kDig || state.aim.cuts;
   return motion;
 }
 

@@ -32,6 +32,7 @@ struct Motion {
   DriveVector towards_mps = DriveVector::Zero();    ///< The same, not eased (blocked.hpp).
   VelocityCap cap;
   const FenceSet* fences = nullptr;  ///< That hold it; null: only the cylinders' ends do.
+  double zero_m = 0.0;               ///< Sensors see heights too high by so much, see Dug.
   double path_error_m = 0.0;
   double off_m = 0.0;  ///< What the tube is laid around.
   TaskWant task;       ///< Of a program.

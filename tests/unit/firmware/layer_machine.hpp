@@ -2,7 +2,9 @@
 #pragma once
 /// A 12 t machine that digs in layers, its teeth where they are to be but for what a test says.
 
-#include "firmware/excavator/motion/dig/layer_run.hpp"
+#include "firmware/excavator/motion/dig/dig_phases.hpp"
+#include "firmware/excavator/motion/dig/dig_run.hpp"
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/program/task_follow.hpp"
 #include "firmware/excavator/swing.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -52,7 +54,7 @@ inline CutSeen follows(const TaskProgram& program, const TaskState& state) {
 }
 
 inline TaskState advance(const TaskProgram& program, TaskState state, const CutSeen& seen) {
-  layer_advance(machine().profile, machine().kinematics, program, kCycle_s, kCycle_s, seen, state);
+  dig_advance(machine().profile, machine().kinematics, program, kCycle_s, kCycle_s, seen, state);
   return state;
 }
 
@@ -71,32 +73,32 @@ TaskState run_until(const TaskProgram& program, TaskState state, const Until& un
   return state;
 }
 
-inline bool in_cut(const TaskState& state) { return state.layers.phase == CutPhase::kCuts; }
+inline bool in_cut(const TaskState& state) { return state.dig.phase == CutPhase::kCuts; }
 
 /// In its first cut, farther than this share of the way.
 inline TaskState cut_beyond(const TaskProgram& program, double share) {
   return run_until(program, begun(program),
-                   [share](const TaskState& at) { return in_cut(at) && at.layers.share > share; });
+                   [share](const TaskState& at) { return in_cut(at) && at.dig.share > share; });
 }
 
 /// On the way down to it, lower than this over the design.
 inline TaskState enters_below(const TaskProgram& program, double height_m) {
   return run_until(program, begun(program), [height_m](const TaskState& at) {
-    return at.layers.phase == CutPhase::kEnters && at.layers.height_m < height_m;
+    return at.dig.phase == CutPhase::kEnters && at.dig.height_m < height_m;
   });
 }
 
 /// While it folds the bucket over the ground.
 inline TaskState folding(const TaskProgram& program) {
   return run_until(program, begun(program), [](const TaskState& at) {
-    return at.layers.phase == CutPhase::kLifts && at.layers.folds && at.time_s > 0.2;
+    return at.dig.phase == CutPhase::kLifts && at.dig.folds && at.time_s > 0.2;
   });
 }
 
 /// Out of its first cut, before the next step.
 inline TaskState lifted(const TaskProgram& program) {
   return run_until(program, begun(program), [](const TaskState& at) {
-    return at.phase == TaskPhase::kSteps && at.step == 1 && at.layers.phase == CutPhase::kNone;
+    return at.phase == TaskPhase::kSteps && at.step == 1 && at.dig.phase == CutPhase::kNone;
   });
 }
 
@@ -125,7 +127,7 @@ inline TaskState pressed_out(const TaskProgram& program, TaskState state, int mo
   for (int n = 0; n < most_cycles && in_cut(state); ++n) {
     state = pressed(program, state, 1, force);
   }
-  assert_int_equal(state.layers.phase, CutPhase::kLifts);
+  assert_int_equal(state.dig.phase, CutPhase::kLifts);
   return state;
 }
 

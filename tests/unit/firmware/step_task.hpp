@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "firmware/excavator/motion/program/executor.hpp"
 #include "firmware/excavator/motion/program/step_run.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// How fast cuts go on, and what follows on them.
 
-#include "firmware/excavator/motion/dig/layer_run.hpp"
+#include "firmware/excavator/motion/dig/dig_run.hpp"
 
 #include "tests/unit/firmware/layer_machine.hpp"
 
@@ -12,7 +12,7 @@ TEST(far_over_its_design_teeth_may_be_late) {
   const TaskProgram program = planned();
   const auto pace_of = [&](bool thin) {
     TaskState state = run_until(program, begun(program), [thin](const TaskState& at) {
-      return in_cut(at) && at.layers.cuts.cut.thin == thin && at.layers.share > 0.5;
+      return in_cut(at) && at.dug.cuts.cut.thin == thin && at.dig.share > 0.5;
     });
     state = advance_seeing(program, state, 100, [](CutSeen& seen) { seen.behind_m = 0.03; });
     assert_true(in_cut(state));
@@ -32,12 +32,12 @@ TEST(a_lift_follows_a_cut_at_once) {
   assert_int_equal(result.refusal, ProgramRefusal::kNone);
   const TaskProgram& program = result.program;
   TaskState state = run_until(program, begun(program), in_cut);
-  state.layers.cuts.cut.height_m = 0.3;  // so high that the bucket is not full on the way
+  state.dug.cuts.cut.height_m = 0.3;  // so high that the bucket is not full on the way
   state = run_until(program, state,
-                    [](const TaskState& at) { return at.layers.phase == CutPhase::kLifts; });
-  assert_near(state.layers.share, 1.0, 0.0);
+                    [](const TaskState& at) { return at.dig.phase == CutPhase::kLifts; });
+  assert_near(state.dig.share, 1.0, 0.0);
   state = run_until(program, state, [](const TaskState& at) {
-    assert_true(at.step == 1 || at.layers.folds);
+    assert_true(at.step == 1 || at.dig.folds);
     return at.step == 1;
   });
 }

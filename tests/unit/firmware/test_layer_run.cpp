@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/motion/dig/layer_run.hpp"
+#include "firmware/excavator/motion/dig/dig_run.hpp"
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@ TEST(digs_down_to_its_design) {
     last = aim.value;
     lowest_m = std::min(lowest_m, aim.teeth.position_m.z());
   }
-  assert_true(state.layers.cuts.met);
+  assert_true(state.dug.cuts.met);
   assert_near(lowest_m, kDesign_m + 0.012, 2e-3);
 }
 
@@ -34,7 +34,7 @@ TEST(aims_move_as_they_say) {
   int looked = 0;
   for (int n = 0; n < 6000; ++n) {
     const TaskState next = advance(program, state, follows(program, state));
-    if (in_cut(state) && in_cut(next) && state.layers.share > 0.3 && next.layers.share < 0.6) {
+    if (in_cut(state) && in_cut(next) && state.dig.share > 0.3 && next.dig.share < 0.6) {
       const TaskAim now = task_aim(machine().kinematics, program, next);
       const DriveVector before = task_aim(machine().kinematics, program, state).value;
       const DriveVector said = next.pace_ratio * now.velocity + now.at_once;
@@ -50,18 +50,18 @@ TEST(a_heavy_cut_gives_way_upwards) {
   const TaskProgram program = planned();
   const TaskState state = cut_beyond(program, 0.4);
   const TaskState heavy = pressed(program, state, 50, {1.3, 0.0});
-  assert_true(heavy.layers.height_m > state.layers.height_m + 0.02);
-  assert_true(heavy.layers.heavy_s > 0.5);
+  assert_true(heavy.dig.height_m > state.dig.height_m + 0.02);
+  assert_true(heavy.dig.heavy_s > 0.5);
   // Held for a second it ends, is lifted, and the next cuts are less deep.
   const TaskState ended = pressed_out(program, heavy, 200, {1.6, 0.0});
-  assert_true(ended.layers.cuts.depth_m < state.layers.cuts.depth_m);
+  assert_true(ended.dug.cuts.depth_m < state.dug.cuts.depth_m);
 }
 
 TEST(a_force_along_the_way_holds_nothing_up) {
   const TaskProgram program = planned();
   const TaskState state = cut_beyond(program, 0.3);
   const TaskState pushed = pressed(program, state, 50, {-2.0, 0.0});
-  assert_near(pushed.layers.height_m, state.layers.height_m, 5e-3);
+  assert_near(pushed.dig.height_m, state.dig.height_m, 5e-3);
 }
 
 /// Teeth that do not come down are not pressed on by a plan far below them.
@@ -78,7 +78,7 @@ TEST(soil_that_holds_the_edge_up_is_cut_from_there) {
     assert_true(seen.behind_m < 0.13);
   }
   assert_true(in_cut(state));
-  assert_true(state.layers.give_m > 0.0);
+  assert_true(state.dig.give_m > 0.0);
 }
 
 /// A platform that still swings about its place is waited for, over the ground.
@@ -90,10 +90,10 @@ TEST(teeth_off_to_a_side_do_not_end_the_way_down) {
     seen.teeth.position_m.y() += 0.12;
     seen.behind_m = 0.12;
     state = advance(program, state, seen);
-    assert_int_equal(state.layers.phase, CutPhase::kEnters);
+    assert_int_equal(state.dig.phase, CutPhase::kEnters);
   }
   state = run_until(program, state, in_cut);
-  assert_near(state.layers.give_m, 0.0, 0.01);
+  assert_near(state.dig.give_m, 0.0, 0.01);
 }
 
 /// Oil that is pressed lets off before the edge goes along: it would throw it down.
@@ -105,22 +105,22 @@ TEST(pressed_oil_lets_off_before_a_cut) {
   for (int n = 0; n < 400 && !in_cut(state); ++n) {
     CutSeen seen = follows(program, state);
     const TeethPose stands = seen.teeth;
-    seen.force_n = {0.0, eased && n % 400 > 0 && state.layers.height_m > state.layers.stood_m + 0.03
+    seen.force_n = {0.0, eased && n % 400 > 0 && state.dig.height_m > state.dig.stood_m + 0.03
                              ? 0.0
                              : presses_n};
-    if (state.layers.eases) {
+    if (state.dig.eases) {
       // The ground does not push: the teeth stay while their oil lets off.
       seen.teeth.position_m.z() =
-          std::min(stands.position_m.z(), kDesign_m + 0.012 + state.layers.stood_m);
+          std::min(stands.position_m.z(), kDesign_m + 0.012 + state.dig.stood_m);
     }
-    eased = eased || state.layers.eases;
+    eased = eased || state.dig.eases;
     state = advance(program, state, seen);
   }
   assert_true(eased);
   assert_true(in_cut(state));
-  assert_false(state.layers.eases);
+  assert_false(state.dig.eases);
   // The plan goes on from where the teeth are.
-  assert_near(state.layers.height_m, state.layers.stood_m, 0.012);
+  assert_near(state.dig.height_m, state.dig.stood_m, 0.012);
 }
 
 /// A heel that is pressed on uncut ground is as heavy as soil before the edge.
@@ -128,14 +128,14 @@ TEST(a_pressed_heel_gives_way_too) {
   const TaskProgram program = planned();
   const TaskState state = cut_beyond(program, 0.6);
   const TaskState borne = pressed(program, state, 50, {0.0, 2.0});
-  assert_true(borne.layers.height_m > state.layers.height_m + 0.02);
+  assert_true(borne.dig.height_m > state.dig.height_m + 0.02);
 }
 
 /// Of the last cut: teeth under their plan slow it down more than teeth over it, and at once.
 TEST(a_last_cut_waits_for_teeth_that_sink) {
   const TaskProgram program = planned();
   const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return in_cut(at) && at.layers.cuts.cut.thin && at.layers.share > 0.5;
+    return in_cut(at) && at.dug.cuts.cut.thin && at.dig.share > 0.5;
   });
   const auto pace_with = [&](double off_m) {
     const auto off = [off_m](CutSeen& seen) {
@@ -162,8 +162,8 @@ TEST(teeth_in_their_slot_go_back_as_they_came) {
   TaskState state = pressed_out(program, cut_beyond(program, 0.05), 300, {2.0, 0.0});
   const TeethPose held = task_aim(machine().kinematics, program, state).teeth;
   state = held_at(program, state, held);
-  const TeethPose freed = state.layers.lift.line.at(1.0);
-  const TeethPose& entered = state.layers.entered;
+  const TeethPose freed = state.dig.lift.line.at(1.0);
+  const TeethPose& entered = state.dig.entered;
   assert_near(freed.attitude_rad, entered.attitude_rad, 1e-6);
   assert_near((freed.position_m - entered.position_m).head<2>().norm(), 0.0, 1e-6);
   assert_true(freed.position_m.z() > held.position_m.z() + 0.3);
@@ -190,8 +190,8 @@ TEST(a_held_heel_is_lifted_straight_up) {
   TaskState state = folding(program);
   const TeethPose held = task_aim(machine().kinematics, program, state).teeth;
   state = held_at(program, state, held);
-  assert_int_equal(state.layers.phase, CutPhase::kLifts);
-  const TeethPose& change = state.layers.lift.line.change;
+  assert_int_equal(state.dig.phase, CutPhase::kLifts);
+  const TeethPose& change = state.dig.lift.line.change;
   assert_near(change.attitude_rad, 0.0, 1e-9);
   assert_true(change.position_m.z() > 0.2);
   state = run_until(program, state, [](const TaskState& at) { return at.step == 1; });
@@ -201,11 +201,11 @@ TEST(a_held_heel_is_lifted_straight_up) {
 TEST(a_full_bucket_ends_the_cut) {
   const TaskProgram program = planned();
   const TaskState state = run_until(program, begun(program), [](const TaskState& at) {
-    return at.layers.phase == CutPhase::kLifts;
+    return at.dig.phase == CutPhase::kLifts;
   });
   const double full_m3 = program.layers.full_m3;
-  assert_true(state.layers.filled_m3 > 0.95 * full_m3);
-  assert_true(state.layers.filled_m3 < 1.2 * full_m3);
+  assert_true(state.dig.filled_m3 > 0.95 * full_m3);
+  assert_true(state.dig.filled_m3 < 1.2 * full_m3);
 }
 
 /// The bucket comes out of the ground folded in, before it swings.
@@ -226,20 +226,20 @@ TEST(lifts_out_before_it_swings) {
 TEST(goes_on_where_it_was) {
   const TaskProgram program = planned();
   TaskState state = lifted(program);
-  state.layers.touched = true;
-  state.layers.zero_m = 0.02;
+  state.dug.touched = true;
+  state.dug.zero_m = 0.02;
   TaskMemory rests = remembered(0, state);
   repeat(100, [&] {
     rests = stopped(rests);
     assert_false(rests.runs);
-    assert_true(rests.state.layers.begun);
-    assert_true(rests.state.layers.cuts.height_m == state.layers.cuts.height_m);
-    assert_true(rests.state.layers.touched);
-    assert_near(rests.state.layers.zero_m, 0.02, 0.0);
+    assert_true(rests.state.dug.begun);
+    assert_true(rests.state.dug.cuts.height_m == state.dug.cuts.height_m);
+    assert_true(rests.state.dug.touched);
+    assert_near(rests.state.dug.zero_m, 0.02, 0.0);
   });
   TaskState done = state;
   done.phase = TaskPhase::kDone;
-  assert_false(stopped(remembered(0, done)).state.layers.begun);
+  assert_false(stopped(remembered(0, done)).state.dug.begun);
 }
 
 TEST(what_can_t_be_dug_in_layers_is_refused) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/motion/dig/layer_tare.hpp"
+#include "firmware/excavator/motion/dig/dig_phases.hpp"
 
 #include <vector>
 
@@ -21,9 +21,9 @@ TEST(an_empty_bucket_is_moved_once) {
   std::vector<DriveVector> ways;
   for (int rounds = 0; rounds < 3 && state.phase != TaskPhase::kDone;) {
     const TaskState next = advance(program, state, weighs(program, state));
-    if (next.layers.tares != state.layers.tares && next.layers.tares != TarePart::kNone) {
+    if (next.dig.tares != state.dig.tares && next.dig.tares != TarePart::kNone) {
       assert_int_equal(program.step[static_cast<unsigned>(next.step)].kind, StepKind::kReturnToDig);
-      ways.push_back(next.layers.move.change);
+      ways.push_back(next.dig.move.change);
     }
     rounds += next.step == 0 && state.step != 0 ? 1 : 0;
     state = next;
@@ -42,26 +42,26 @@ TEST(an_empty_bucket_is_moved_once) {
 TEST(a_tare_that_gets_stuck_ends) {
   const TaskProgram program = planned();
   TaskState state = begun(program);
-  while (state.layers.tares == TarePart::kNone) {
+  while (state.dig.tares == TarePart::kNone) {
     state = advance(program, state, weighs(program, state));
   }
   double waited_s = 0.0;
   double boom_m = 0.0;
-  for (; state.layers.tares != TarePart::kNone && waited_s < 20.0; waited_s += kCycle_s) {
+  for (; state.dig.tares != TarePart::kNone && waited_s < 20.0; waited_s += kCycle_s) {
     boom_m = task_aim(machine().kinematics, program, state).value[kBoom];
-    layer_advance(machine().profile, machine().kinematics, program, 0.05 * kCycle_s, kCycle_s,
-                  follows(program, state), state);
+    dig_advance(machine().profile, machine().kinematics, program, 0.05 * kCycle_s, kCycle_s,
+                follows(program, state), state);
   }
   assert_true(waited_s < 2.0 * kTaresMost_s + 0.5);
   assert_int_equal(state.step, 2);
-  assert_near(state.layers.move.from[kBoom], boom_m, 1e-3);
+  assert_near(state.dig.move.from[kBoom], boom_m, 1e-3);
 }
 
 /// Who weighs nothing has nothing to learn it for.
 TEST(without_a_payload_there_is_none) {
   const TaskProgram program = planned();
   run_until(program, begun(program), [](const TaskState& at) {
-    assert_true(at.layers.tares == TarePart::kNone);
+    assert_true(at.dig.tares == TarePart::kNone);
     return at.phase == TaskPhase::kDone;
   });
 }

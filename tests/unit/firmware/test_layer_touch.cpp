@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/motion/dig/layer_touch.hpp"
+#include "firmware/excavator/motion/dig/dig_touch.hpp"
 
 #include <algorithm>
 
@@ -37,7 +37,7 @@ enum class Bearing { kByForce, kByPlace };
 TaskState touched(const TaskProgram& program, double ground_m, Bearing bearing) {
   constexpr double kWeight_n = 900.0;
   TaskState state = task_start(machine().profile, machine().kinematics, program, program.start);
-  for (int n = 0; state.layers.phase != CutPhase::kEnters; ++n) {
+  for (int n = 0; state.dig.phase != CutPhase::kEnters; ++n) {
     assert_true(n < 20000);
     CutSeen seen;
     seen.teeth = task_aim(machine().kinematics, program, state).teeth;
@@ -46,8 +46,7 @@ TaskState touched(const TaskProgram& program, double ground_m, Bearing bearing) 
     seen.force_known = bearing == Bearing::kByForce;
     // What is told of the air is not 0.
     seen.force_n = {0.0, kWeight_n + std::max(0.0, sinks_m) * 4e6};
-    layer_advance(machine().profile, machine().kinematics, program, kCycle_s, kCycle_s, seen,
-                  state);
+    dig_advance(machine().profile, machine().kinematics, program, kCycle_s, kCycle_s, seen, state);
   }
   return state;
 }
@@ -57,12 +56,12 @@ TEST(counts_heights_from_the_ground) {
     for (const double ground_m : {-0.022, 0.0, 0.017}) {
       const TaskProgram level = planned(-0.3);
       const TaskState state = touched(level, ground_m, bearing);
-      assert_true(state.layers.touched);
-      assert_near(state.layers.zero_m, ground_m, 1.5e-3);
+      assert_true(state.dug.touched);
+      assert_near(state.dug.zero_m, ground_m, 1.5e-3);
       // The cut's line is as much higher as the ground is seen.
       const TeethLine cut = cut_line(level, state);
-      const TeethLine plain = line_over(level, state.layers.cuts.cut.strip, state.layers.height_m);
-      assert_near(cut.from.position_m.z() - plain.from.position_m.z(), state.layers.zero_m, 1e-9);
+      const TeethLine plain = line_over(level, state.dug.cuts.cut.strip, state.dig.height_m);
+      assert_near(cut.from.position_m.z() - plain.from.position_m.z(), state.dug.zero_m, 1e-9);
     }
   }
 }
@@ -71,7 +70,7 @@ TEST(counts_heights_from_the_ground) {
 TEST(counts_heights_over_a_slope) {
   const TaskProgram slope = planned(-0.9);
   const TaskState state = touched(slope, 0.02, Bearing::kByForce);
-  assert_near(state.layers.zero_m, 0.02 * slope.layers.up.z(), 1.5e-3);
+  assert_near(state.dug.zero_m, 0.02 * slope.layers.up.z(), 1.5e-3);
   assert_true(slope.layers.up.z() < 0.95);
 }
 
@@ -79,8 +78,8 @@ TEST(ground_that_is_not_where_it_should_be_is_not_believed) {
   const TaskProgram level = planned(-0.3);
   for (const double ground_m : {-0.5, 0.068, 0.2}) {
     const TaskState state = touched(level, ground_m, Bearing::kByForce);
-    assert_true(state.layers.touched);
-    assert_near(state.layers.zero_m, 0.0, 0.0);
+    assert_true(state.dug.touched);
+    assert_near(state.dug.zero_m, 0.0, 0.0);
   }
 }
 
@@ -90,7 +89,7 @@ TEST(late_teeth_in_the_air_are_not_on_the_ground) {
   constexpr double kGround_m = -0.03;
   const TaskProgram level = planned(-0.3);
   TaskState state = task_start(machine().profile, machine().kinematics, level, level.start);
-  for (int n = 0; state.layers.phase != CutPhase::kEnters; ++n) {
+  for (int n = 0; state.dig.phase != CutPhase::kEnters; ++n) {
     assert_true(n < 20000);
     CutSeen seen;
     seen.teeth = task_aim(machine().kinematics, level, state).teeth;
@@ -100,9 +99,9 @@ TEST(late_teeth_in_the_air_are_not_on_the_ground) {
     seen.lambda = 1.0;
     const double noise_n = 0.06 * level.layers.force_n * (n % 2 == 0 ? 1.0 : -1.0);
     seen.force_n = {0.0, noise_n + std::max(0.0, kGround_m - late_m) * 4e6};
-    layer_advance(machine().profile, machine().kinematics, level, kCycle_s, kCycle_s, seen, state);
+    dig_advance(machine().profile, machine().kinematics, level, kCycle_s, kCycle_s, seen, state);
   }
-  assert_near(state.layers.zero_m, kGround_m, 2e-3);
+  assert_near(state.dug.zero_m, kGround_m, 2e-3);
 }
 
 /// Only where the task says so, and once: what is known of the ground stays when the task rests.
@@ -112,10 +111,10 @@ TEST(touches_once) {
   const TaskProgram level = planned(-0.3);
   assert_near(level.layers.touch_share, 0.5, 0.0);
   const TaskState state = touched(level, 0.01, Bearing::kByForce);
-  assert_false(touches_next(level, state));
+  assert_true(first_phase(level, state) == CutPhase::kEnters);
   const TaskMemory rests = stopped(remembered(0, state));
-  assert_true(rests.state.layers.touched);
-  assert_near(rests.state.layers.zero_m, state.layers.zero_m, 0.0);
+  assert_true(rests.state.dug.touched);
+  assert_near(rests.state.dug.zero_m, state.dug.zero_m, 0.0);
 }
 
 /// The floor is level as it comes down, and it is out of the ground before the bucket turns.
@@ -124,19 +123,19 @@ TEST(comes_down_flat_and_leaves_upwards) {
   TaskState state = task_start(machine().profile, machine().kinematics, level, level.start);
   double lowest_m = 1.0;
   bool up_again = false;
-  for (int n = 0; state.layers.phase != CutPhase::kEnters; ++n) {
+  for (int n = 0; state.dig.phase != CutPhase::kEnters; ++n) {
     assert_true(n < 20000);
     const TaskAim aim = task_aim(machine().kinematics, level, state);
     assert_int_equal(aim.blind.kind, BlindKind::kNone);
-    if (state.layers.phase == CutPhase::kTouches) {
+    if (state.dig.phase == CutPhase::kTouches) {
       assert_near(aim.teeth.attitude_rad, machine().profile.geometry.body.floor_rad, 1e-6);
       lowest_m = std::min(lowest_m, aim.teeth.position_m.z());
     }
-    up_again = up_again || (state.layers.touched && aim.teeth.position_m.z() > 0.8);
+    up_again = up_again || (state.dug.touched && aim.teeth.position_m.z() > 0.8);
     CutSeen seen;
     seen.teeth = aim.teeth;
     seen.teeth.position_m.z() = std::max(seen.teeth.position_m.z(), 0.0);
-    layer_advance(machine().profile, machine().kinematics, level, kCycle_s, kCycle_s, seen, state);
+    dig_advance(machine().profile, machine().kinematics, level, kCycle_s, kCycle_s, seen, state);
   }
   assert_true(lowest_m > -0.03 && lowest_m < 0.0);
   assert_true(up_again);

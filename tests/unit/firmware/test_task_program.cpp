@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "firmware/excavator/motion/program/task_run.hpp"
+#include "firmware/excavator/motion/program/executor.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
 #include "tests/unit/rounds.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/motion/program/task_run.hpp"
+#include "firmware/excavator/motion/program/executor.hpp"
 
 #include <limits>
 

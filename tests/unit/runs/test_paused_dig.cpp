@@ -21,12 +21,12 @@ struct Digging {
     book.program[0] = program;
     book.count = 1;
     rig.emplace(machine, book, program.start, 1.0);
-    run_until([this] { return layers().cuts.cuts >= 1; });
+    run_until([this] { return task_state().dug.cuts.cuts >= 1; });
   }
 
-  [[nodiscard]] const LayerState& layers() {
+  [[nodiscard]] const TaskState& task_state() {
     auto& controller = ControllerMemoryAccess::controller(*rig->ecu);
-    return ControllerMemoryAccess::memory(controller)->motion.task.state.layers;
+    return ControllerMemoryAccess::memory(controller)->motion.task.state;
   }
   [[nodiscard]] const ExcavatorStatus& status() const { return rig->ecu->outputs().status; }
   [[nodiscard]] bool is_done() const { return status().progress.kind == StepKind::kDone; }
@@ -76,15 +76,15 @@ struct Digging {
       return;
     }
     ++pauses;
-    const CutState before = layers().cuts;
-    const double zero_m = layers().zero_m;
+    const CutState before = task_state().dug.cuts;
+    const double zero_m = task_state().dug.zero_m;
     stop();
     run_until([this] { return status().mode == EcuMode::kActive && status().progress.runs; });
-    assert_true(layers().begun && layers().touched);
-    assert_near(layers().zero_m, zero_m, 0.0);
-    assert_true(layers().cuts.height_m == before.height_m);
-    run_until([this] { return layers().phase == CutPhase::kCuts || is_done(); });
-    assert_true(layers().cuts.height_m == before.height_m);
+    assert_true(task_state().dug.begun && task_state().dug.touched);
+    assert_near(task_state().dug.zero_m, zero_m, 0.0);
+    assert_true(task_state().dug.cuts.height_m == before.height_m);
+    run_until([this] { return task_state().dig.phase == CutPhase::kCuts || is_done(); });
+    assert_true(task_state().dug.cuts.height_m == before.height_m);
   }
 
   runs::TaskScenario scenario;
@@ -102,7 +102,7 @@ TEST(a_dig_goes_on_in_every_area) {
     }
     dig.goes_on_after([&] { dig.be_silent(); });
     dig.goes_on_after([&] { dig.drive_by_hand(); });
-    print_message("%s: %d pauses, %d cuts\n", task, dig.pauses, dig.layers().cuts.cuts);
+    print_message("%s: %d pauses, %d cuts\n", task, dig.pauses, dig.task_state().dug.cuts.cuts);
     assert_true(dig.pauses >= 3);  // The smallest area has four cuts.
   }
 }

@@ -2,7 +2,7 @@
 #pragma once
 /// How heavy a cut is, by the tip's force, by how far the teeth are behind and by lambda.
 
-#include "firmware/excavator/motion/dig/layer_run.hpp"
+#include "firmware/excavator/motion/dig/dig_cycle.hpp"
 
 namespace graben {
 

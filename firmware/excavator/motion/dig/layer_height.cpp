@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
+
 namespace graben {
 namespace {
 
@@ -29,39 +31,39 @@ double speed_towards(double from_m, double to_m, double speed_mps, double most_d
 }  // namespace
 
 double seen_height_m(const TaskProgram& program, const CutSeen& seen, const TaskState& state) {
-  const LayerState& layers = state.layers;
-  const TeethLine line = line_over(program, layers.cuts.cut.strip, layers.zero_m);
-  return turned(program.layers.up, strip_rad(program.layers, layers.cuts.cut.strip))
+  const int strip = state.dug.cuts.cut.strip;
+  const TeethLine line = line_over(program, strip, state.dug.zero_m);
+  return turned(program.layers.up, strip_rad(program.layers, strip))
       .dot(seen.teeth.position_m - line.from.position_m);
 }
 
-double wanted_height_m(const TaskProgram& program, const LayerState& layers) {
-  const Cut& cut = layers.cuts.cut;
-  const double steep = cut.thin ? cut.steep * steepness(program, cut, layers.share).share : 0.0;
+double wanted_height_m(const TaskProgram& program, const TaskState& state) {
+  const Cut& cut = state.dug.cuts.cut;
+  const double share = state.dig.share;
+  const double steep = cut.thin ? cut.steep * steepness(program, cut, share).share : 0.0;
   // The foot of a wall beyond the line: nothing has to be met there, and it may break off.
-  const double beyond_m = std::max(0.0, -layers.share * program.layers.way_m);
+  const double beyond_m = std::max(0.0, -share * program.layers.way_m);
   // And where it ends, a heel that has stood on it comes down.
-  const double on_foot =
-      cut.from_share < 0.0 ? std::clamp(1.0 - layers.share / kOffFoot, 0.0, 1.0) : 0.0;
+  const double on_foot = cut.from_share < 0.0 ? std::clamp(1.0 - share / kOffFoot, 0.0, 1.0) : 0.0;
   return cut.height_m + std::max(kSteepHigher_m * steep, kFootHigher_m * on_foot) +
          kFoot_pm * beyond_m * beyond_m;
 }
 
-void rise(const LayerCycle& cycle, double target_m, double most_down_mps, TaskState& state) {
-  LayerState& layers = state.layers;
-  layers.height_mps =
-      speed_towards(layers.height_m, target_m, layers.height_mps, most_down_mps, cycle.period_s);
+void rise(const DigCycle& cycle, double target_m, double most_down_mps, TaskState& state) {
+  DigRun& run = state.dig;
+  run.height_mps =
+      speed_towards(run.height_m, target_m, run.height_mps, most_down_mps, cycle.period_s);
   // The way up is free where the way down is barred.
-  const double by_s = layers.height_mps > 0.0
+  const double by_s = run.height_mps > 0.0
                           ? std::max(cycle.advance_s, kRisesAtLeast * cycle.period_s)
                           : state.pace_ratio * cycle.advance_s;
-  const double height_m = layers.height_m + by_s * layers.height_mps;
+  const double height_m = run.height_m + by_s * run.height_mps;
   const TeethPose there =
-      cut_pose(cycle.program, layers.cuts.cut, layers.share, height_m + layers.zero_m);
+      cut_pose(cycle.program, state.dug.cuts.cut, run.share, height_m + state.dug.zero_m);
   if (cycle.kinematics.drive_from_teeth(there).blind.kind == BlindKind::kNone) {
-    layers.height_m = height_m;
+    run.height_m = height_m;
   } else {
-    layers.height_mps = 0.0;
+    run.height_mps = 0.0;
   }
 }
 

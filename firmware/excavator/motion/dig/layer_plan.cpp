@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/motion/dig/layer_touch.hpp"
+#include "firmware/excavator/motion/dig/dig_touch.hpp"
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
 
 namespace graben {
 namespace {

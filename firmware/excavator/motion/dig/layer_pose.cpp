@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/motion/dig/layer_touch.hpp"
+#include "firmware/excavator/motion/dig/dig_touch.hpp"
 
 namespace graben {
 namespace {
@@ -59,24 +59,26 @@ double incline_rad(const LayerPlan& plan, const TeethPose& at) {
 
 TaskAim aim_of_cut(const SwingKinematics& kinematics, const TaskProgram& program,
                    const TaskState& state) {
-  const LayerState& layers = state.layers;
   const TeethLine line = cut_line(program, state);
   TaskAim aim;
   aim.kind = StepKind::kDig;
-  aim.share = layers.share;
-  const Cut& cut = layers.cuts.cut;
-  aim.teeth = cut_pose(program, cut, layers.share, layers.height_m + layers.zero_m);
-  const double rate_ps = std::max(0.0, layers.rate_ps);
+  aim.share = state.dig.share;
+  const Cut& cut = state.dug.cuts.cut;
+  aim.teeth = cut_pose(program, cut, state.dig.share, state.dig.height_m + state.dug.zero_m);
+  aim.straight = true;
+  aim.cuts = true;
+  aim.line = line;
+  const double rate_ps = std::max(0.0, state.dig.rate_ps);
   TeethPose along = line.change;
   along.position_m *= rate_ps;
   along.attitude_rad =
       rate_ps * (line.change.attitude_rad +
-                 steep_rad(program, cut) * steepness(program, cut, layers.share).rate_ps);
+                 steep_rad(program, cut) * steepness(program, cut, state.dig.share).rate_ps);
   const TeethPose rises = {
-      layers.height_mps *
-          turned(program.layers.up, strip_rad(program.layers, layers.cuts.cut.strip)),
+      state.dig.height_mps *
+          turned(program.layers.up, strip_rad(program.layers, state.dug.cuts.cut.strip)),
       0.0};
-  if (layers.height_mps < 0.0) {
+  if (state.dig.height_mps < 0.0) {
     along.position_m += rises.position_m;
   }
   const DriveMotion motion =
@@ -84,14 +86,14 @@ TaskAim aim_of_cut(const SwingKinematics& kinematics, const TaskProgram& program
   aim.blind = motion.blind;
   aim.value = motion.value;
   aim.velocity = motion.rate;
-  if (layers.height_mps > 0.0) {
+  if (state.dig.height_mps > 0.0) {
     aim.at_once = kinematics.motion_from_teeth(aim.teeth, rises, {}, near_rad(aim.teeth)).rate;
   }
   return aim;
 }
 
 TaskAim aim_of_lift(const SwingKinematics& kinematics, const TaskState& state) {
-  const LinePlan& plan = state.layers.lift;
+  const LinePlan& plan = state.dig.lift;
   const Progress progress = plan.ramp.at(state.time_s);
   const DriveMotion drives = line_motion(kinematics, plan.line, progress.share);
   TaskAim aim;
@@ -136,29 +138,24 @@ Progress steepness(const TaskProgram& program, const Cut& cut, double share) {
   return {left * left / (2.0 * kFades * kTurnsMean), -left / (kFades * kTurnsMean * turns), 0.0};
 }
 
-bool turns(const TaskProgram& program, const LayerState& layers) {
-  return (layers.share - layers.cuts.cut.from_share) * program.layers.way_m <
+bool turns(const TaskProgram& program, const TaskState& state) {
+  return (state.dig.share - state.dug.cuts.cut.from_share) * program.layers.way_m <
          program.layers.turns_m;
 }
 
-double most_rate_ps(const TaskProgram& program, const LayerState& layers) {
+double most_rate_ps(const TaskProgram& program, const TaskState& state) {
   const LayerPlan& plan = program.layers;
-  const Cut& cut = layers.cuts.cut;
+  const Cut& cut = state.dug.cuts.cut;
   double most_mps = plan.speed_mps;
   if (cut.height_m <= 0.0) {
     most_mps = std::min(most_mps, kFinish_mps);
   }
   const double steep = std::abs(steep_rad(program, cut));
-  const double turn_rad = steep * std::abs(steepness(program, cut, layers.share).rate_ps);
+  const double turn_rad = steep * std::abs(steepness(program, cut, state.dig.share).rate_ps);
   if (turn_rad * most_mps > kTurn_radps * plan.way_m) {
     most_mps = kTurn_radps * plan.way_m / turn_rad;
   }
   return most_mps / plan.way_m;
-}
-
-bool cuts(const TaskProgram& program, const TaskState& state) {
-  return at_cut(program, state) &&
-         (state.layers.phase == CutPhase::kEnters || state.layers.phase == CutPhase::kCuts);
 }
 
 TeethLine line_over(const TaskProgram& program, int strip, double height_m) {
@@ -178,8 +175,8 @@ TeethPose cut_pose(const TaskProgram& program, const Cut& cut, double share, dou
 }
 
 TeethLine cut_line(const TaskProgram& program, const TaskState& state) {
-  const LayerState& layers = state.layers;
-  return line_over(program, std::max(0, layers.cuts.cut.strip), layers.height_m + layers.zero_m);
+  return line_over(program, std::max(0, state.dug.cuts.cut.strip),
+                   state.dig.height_m + state.dug.zero_m);
 }
 
 LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
@@ -271,7 +268,7 @@ TeethPose first_dig_pose(const SwingKinematics& kinematics, const TaskProgram& p
 TaskAim layer_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                   const TaskState& state) {
   if (at_cut(program, state)) {
-    switch (state.layers.phase) {
+    switch (state.dig.phase) {
       case CutPhase::kLifts:
         return aim_of_lift(kinematics, state);
       case CutPhase::kTouches:
@@ -282,7 +279,7 @@ TaskAim layer_aim(const SwingKinematics& kinematics, const TaskProgram& program,
   }
   const TaskStep& step =
       program.step[static_cast<unsigned>(std::clamp(state.step, 0, kStepMost - 1))];
-  return aim_of_plan(kinematics, step.kind, state.layers.move, state.time_s);
+  return aim_of_plan(kinematics, step.kind, state.dig.move, state.time_s);
 }
 
 }  // namespace graben

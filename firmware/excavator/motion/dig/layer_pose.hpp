@@ -8,9 +8,6 @@ namespace graben {
 
 [[nodiscard]] inline bool in_layers(const TaskProgram& program) { return program.layers.step >= 0; }
 
-/// True while the edge goes down into the ground or through it.
-[[nodiscard]] bool cuts(const TaskProgram& program, const TaskState& state);
-
 /// The line that the edge follows now: the step's, over its layer and at its strip.
 [[nodiscard]] TeethLine cut_line(const TaskProgram& program, const TaskState& state);
 
@@ -73,10 +70,10 @@ void begin_beyond(const SwingKinematics& kinematics, const TaskProgram& program,
 [[nodiscard]] Progress steepness(const TaskProgram& program, const Cut& cut, double share);
 
 /// On the first part of a cut the bucket is coming to its attitude.
-[[nodiscard]] bool turns(const TaskProgram& program, const LayerState& layers);
+[[nodiscard]] bool turns(const TaskProgram& program, const TaskState& state);
 
 /// A cut's speed: that of the plan, less while the bucket turns, and on the design itself, where
 /// its force is to be small.
-[[nodiscard]] double most_rate_ps(const TaskProgram& program, const LayerState& layers);
+[[nodiscard]] double most_rate_ps(const TaskProgram& program, const TaskState& state);
 
 }  // namespace graben

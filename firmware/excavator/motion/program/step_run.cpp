@@ -123,7 +123,7 @@ void go_on(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
   if (state.phase == TaskPhase::kSteps) {
     begin(profile, kinematics, program, ended, state);
   } else if (state.phase == TaskPhase::kDone) {
-    state.layers.stands = ended.drives;
+    state.stands = ended.drives;
     state.own = true;
   }
 }
@@ -136,7 +136,7 @@ void come_to_rest(const ExcavatorProfile& profile, const SwingKinematics& kinema
   if (!rests(profile.line, step.duration_s(), advance_s, period_s, state)) {
     return;
   }
-  const Ended ended{seen.teeth, task_aim(kinematics, program, state).value};
+  const Ended ended{seen.teeth, aim_of_steps(kinematics, program, state).value};
   const bool by_what_it_met = state.ends == UntilKind::kForce || state.ends == UntilKind::kFull;
   state.cut_short = state.cut_short || (by_what_it_met && step.kind == StepKind::kDig);
   state = next_part(program, state);

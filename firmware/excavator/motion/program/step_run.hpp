@@ -3,7 +3,7 @@
 /// Executes a program of steps: how it goes on from step to step and from round to round, and what
 /// ends a step before its planned end.
 
-#include "firmware/excavator/motion/dig/layer_run.hpp"
+#include "firmware/excavator/motion/dig/dig_cycle.hpp"
 
 namespace graben {
 

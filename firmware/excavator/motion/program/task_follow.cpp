@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/motion/program/step_run.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {
@@ -72,13 +71,13 @@ TaskProgress progress_of(const TaskProgram& program, const TaskMemory& memory, c
     memory.state.approach = {};
   }
   if (memory.number != number) {
-    memory.state.layers = {};
+    memory.state.dug = {};
   }
   memory.runs = false;
   memory.number = number;
   memory.search.runs = true;
   memory.search.number = number;
-  const LayerState layers = memory.state.layers;
+  const Dug dug = memory.state.dug;
   search_approach(profile, kinematics, program, drives_now, memory.search, memory.state.approach);
   if (memory.search.found) {
     memory.state =
@@ -88,7 +87,7 @@ TaskProgress progress_of(const TaskProgram& program, const TaskMemory& memory, c
   } else {
     memory.state.phase = TaskPhase::kDone;
   }
-  memory.state.layers = layers;
+  memory.state.dug = dug;
 }
 
 /// The operator may have moved it a little meanwhile; from elsewhere the task begins anew.
@@ -130,18 +129,13 @@ TaskWant want_of_task(const ExcavatorProfile& profile, DriveRows drives,
                drives_of(profile, bounded(drives, want.planned_m - servo.under_way_m())))
           .position_m;
   want.error_m = (at_m - due_m).norm();
-  const bool cut = cuts(program, memory.state);
-  const bool straight = cut || on_line(program, memory.state);
-  want.moves = want.holds && !straight;
-  const TaskStep& step = current_step(program, memory.state);
-  want.path_error_m = cut        ? line_distance_m(cut_line(program, memory.state), at_m)
-                      : straight ? line_distance_m(step.line.line, at_m)
-                                 : want.error_m;
-  want.off_m =
-      straight ? want.path_error_m : std::max(0.0, want.error_m - profile.line.move_slow_error_m);
-  want.behind_m = straight ? want.error_m : behind_m(kinematics, aim, due_m - at_m);
-  want.astray = !in_layers(program) && is_astray(memory.state, want.behind_m);
-  want.bides = !in_layers(program) && memory.state.settle_s > 0.0 && !want.astray;
+  want.moves = want.holds && !aim.straight;
+  want.path_error_m = aim.straight ? line_distance_m(aim.line, at_m) : want.error_m;
+  want.off_m = aim.straight ? want.path_error_m
+                            : std::max(0.0, want.error_m - profile.line.move_slow_error_m);
+  want.behind_m = aim.straight ? want.error_m : behind_m(kinematics, aim, due_m - at_m);
+  want.astray = !program.leads_on && is_astray(memory.state, want.behind_m);
+  want.bides = !program.leads_on && memory.state.settle_s > 0.0 && !want.astray;
   want.pace_ratio = memory.state.pace_ratio;
   const DriveVector planned_mps = travel_of(profile, want.pace_ratio * aim.velocity + aim.at_once);
   want.wanted_mps =
@@ -158,10 +152,7 @@ TaskMemory stopped(const TaskMemory& last) {
     memory.state.word = true;
   } else if (!last.runs || last.state.phase != TaskPhase::kDone) {
     memory.number = last.number;
-    memory.state.layers.begun = last.state.layers.begun;
-    memory.state.layers.cuts = last.state.layers.cuts;
-    memory.state.layers.touched = last.state.layers.touched;
-    memory.state.layers.zero_m = last.state.layers.zero_m;
+    memory.state.dug = last.state.dug;
   }
   return memory;
 }
@@ -181,11 +172,7 @@ void next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematic
     return;
   }
   const double advance_s = followed_ratio * period_s;
-  if (in_layers(program)) {
-    layer_advance(profile, kinematics, program, advance_s, period_s, seen, memory.state);
-  } else {
-    steps_advance(profile, kinematics, program, advance_s, period_s, seen, memory.state);
-  }
+  execute(profile, kinematics, program, advance_s, period_s, seen, memory.state);
 }
 
 }  // namespace graben

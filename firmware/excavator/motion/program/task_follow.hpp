@@ -5,8 +5,7 @@
 /// at its lever (SwingProfile).
 
 #include "firmware/excavator/excavator_drives.hpp"
-#include "firmware/excavator/motion/dig/layer_run.hpp"
-#include "firmware/excavator/motion/program/task_run.hpp"
+#include "firmware/excavator/motion/program/executor.hpp"
 
 namespace graben {
 

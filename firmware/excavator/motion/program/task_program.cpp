@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "firmware/excavator/motion/dig/layer_plan.hpp"
-#include "firmware/excavator/motion/dig/layer_run.hpp"
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/dig/step_round.hpp"
 #include "firmware/excavator/swing.hpp"
 
@@ -288,6 +288,7 @@ bool Planning::plan_in_layers() {
     return refuse(ProgramRefusal::kBlindSpot, 0, layers.place);
   }
   program.layers = layers.plan;
+  program.leads_on = true;
   if (!strips_in_range()) {
     return false;
   }

@@ -94,6 +94,7 @@ struct TaskProgram {
   DriveVector end = DriveVector::Zero();    ///< Drives at the last.
   FenceSet fences;                          ///< The design surface is the last of them.
   LayerPlan layers;                         ///< Of the step that is dug in layers, if one is.
+  bool leads_on = false;  ///< Each part begins wherever the one before it has ended.
 };
 
 /// Programs that can be chosen over the bus, by task number from 0.

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "firmware/excavator/motion/dig/layer_run.hpp"
-
 namespace graben {
 namespace {
 
@@ -39,6 +37,8 @@ TaskAim aim_of_line(const SwingKinematics& kinematics, StepKind kind, const Line
   aim.value = drives.value;
   aim.velocity = progress.rate_ps * drives.rate;
   aim.teeth = plan.line.at(progress.share);
+  aim.straight = true;
+  aim.line = plan.line;
   return aim;
 }
 
@@ -77,7 +77,7 @@ bool leaves(const TaskProgram& program, double error_m, TaskState& state) {
   if (calm) {
     return true;
   }
-  if (in_layers(program)) {
+  if (program.leads_on) {
     return state.settle_s >= kSettleMost_s;
   }
   const bool late = state.settle_s >= kArriveMost_s && error_m <= kMissedMost_m;
@@ -111,19 +111,16 @@ TaskAim aim_of_plan(const SwingKinematics& kinematics, StepKind kind, const Driv
   return aim_of_drives(kinematics, kind, drive_state(plan, time_s), plan.ramp.duration_s > 0.0);
 }
 
-TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
-                 const TaskState& state) {
+TaskAim aim_of_steps(const SwingKinematics& kinematics, const TaskProgram& program,
+                     const TaskState& state) {
   if (state.phase == TaskPhase::kApproach) {
     return aim_of_plan(kinematics, StepKind::kApproach,
                        approach_leg(state.approach, program, state.step), state.time_s);
   }
   if (state.phase == TaskPhase::kDone) {
     DriveState stands;
-    stands.value = in_layers(program) || state.own ? state.layers.stands : program.end;
+    stands.value = program.leads_on || state.own ? state.stands : program.end;
     return aim_of_drives(kinematics, StepKind::kDone, stands, false);
-  }
-  if (in_layers(program)) {
-    return layer_aim(kinematics, program, state);
   }
   const TaskStep& step = current_step(program, state);
   return step.straight ? aim_of_line(kinematics, step.kind, step.line, state.time_s)
@@ -162,12 +159,12 @@ TaskState next_part(const TaskProgram& program, const TaskState& state) {
 }
 
 bool on_line(const TaskProgram& program, const TaskState& state) {
-  return state.phase == TaskPhase::kSteps && !in_layers(program) &&
+  return state.phase == TaskPhase::kSteps && !program.leads_on &&
          current_step(program, state).straight;
 }
 
 double arrival_m(const TaskProgram& program, const TaskState& state) {
-  if (in_layers(program) || on_line(program, state)) {
+  if (program.leads_on || on_line(program, state)) {
     return kSettled_m;
   }
   int next = state.phase == TaskPhase::kApproach ? 0 : state.step + 1;
@@ -212,7 +209,7 @@ TaskState task_advance(const LineProfile& line, const TaskProgram& program, cons
   }
   next.time_s = end_s;
   // Held at override 0 it can't arrive.
-  next.settle_s += advance_s > 0.0 || in_layers(program) ? period_s : 0.0;
+  next.settle_s += advance_s > 0.0 || program.leads_on ? period_s : 0.0;
   next.calm_s = error_m < arrival_m(program, state) ? state.calm_s + period_s : 0.0;
   return leaves(program, error_m, next) ? next_part(program, next) : next;
 }

@@ -3,6 +3,7 @@
 /// Executes a program: where on its plan a task is, what is wanted there, and how it goes on.
 
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/motion/dig/dig_state.hpp"
 #include "firmware/excavator/motion/program/approach.hpp"
 #include "firmware/excavator/motion/program/task_program.hpp"
 
@@ -12,52 +13,6 @@ enum class TaskPhase : std::uint8_t {
   kApproach = 0,  ///< To the first pose.
   kSteps = 1,
   kDone = 2,  ///< Stands at the last pose.
-};
-
-enum class CutPhase : std::uint8_t {
-  kNone = 0,    ///< A move.
-  kEnters = 1,  ///< Down to the layer.
-  kCuts = 2,
-  kLifts = 3,    ///< Out of the ground, with the bucket folded in.
-  kTouches = 4,  ///< Down onto the ground before the first cut, to find its height.
-};
-
-/// Of the moves of a bucket that has been emptied, see layer_tare.hpp.
-enum class TarePart : std::uint8_t {
-  kNone = 0,
-  kRaises = 1,   ///< The boom up and the arm in.
-  kReaches = 2,  ///< The arm out again.
-};
-
-/// Where a program in layers is, see layer_run.hpp.
-struct LayerState {
-  bool begun = false;  ///< `cuts` is of this program.
-  CutPhase phase = CutPhase::kNone;
-  CutState cuts;
-  bool touched = false;     ///< The ground has been looked for,
-  double zero_m = 0.0;      ///< and heights as the sensors see them are too high by so much.
-  double air_n = 0.0;       ///< Upward force that is told before the ground bears anything,
-  double up_n = 0.0;        ///< and as it comes down on it.
-  double share = 0.0;       ///< Of the line.
-  double rate_ps = 0.0;     ///< By the plan's time.
-  double height_m = 0.0;    ///< Over the line.
-  double height_mps = 0.0;  ///< By the plan's time.
-  double give_m = 0.0;      ///< Of that, for what was too heavy.
-  double seen_share = 0.0;  ///< That the edge has passed.
-  double filled_m3 = 0.0;   ///< Of the ground, in this cut.
-  double cut_s = 0.0;       ///< Of this cut, once the bucket is at its attitude,
-  double heavy_s = 0.0;     ///< and the sum of how heavy it was in it; 1: as heavy as it may be.
-  double held_s = 0.0;      ///< How long it does not get on.
-  bool eases = false;       ///< On its way down it lets its oil off,
-  double stood_m = 0.0;     ///< which began with the teeth at this height.
-  TeethPose entered;        ///< Where the cut has gone into the ground.
-  bool folds = false;       ///< The first part of a lift.
-  double weighed_kg = 0.0;  ///< What the cut has brought; 0: not known.
-  TarePart tares = TarePart::kNone;  ///< The empty bucket is moved before it goes back,
-  bool tared = false;                ///< which is done once.
-  LinePlan lift;
-  DrivePlan move;                            ///< Of the step that runs.
-  DriveVector stands = DriveVector::Zero();  ///< Where it was when all was dug.
 };
 
 inline constexpr int kFillBins = 24;
@@ -92,14 +47,16 @@ struct TaskState {
   UntilKind last_end = UntilKind::kEnd;  ///< Of the step before.
   double force_s = 0.0;                  ///< How long the force that ends the step has been there.
   StepFill fill;
-  /// The step is `here` and not the program's; once it is done, it stands at layers.stands.
+  /// The step is `here` and not the program's.
   bool own = false;
   bool off_plan = false;  ///< And begins elsewhere than planned.
   TaskStep here;
-  bool waits = false;     ///< It stands at a wait,
-  bool word = false;      ///< and the operator has asked for the task anew.
-  ApproachPath approach;  ///< `step` is the leg.
-  LayerState layers;
+  bool waits = false;                        ///< It stands at a wait,
+  bool word = false;                         ///< and the operator has asked for the task anew.
+  ApproachPath approach;                     ///< `step` is the leg.
+  DriveVector stands = DriveVector::Zero();  ///< At its end, where that is not the program's.
+  Dug dug;
+  DigRun dig;
 };
 
 /// Aim of the plan at one moment.
@@ -113,7 +70,10 @@ struct TaskAim {
       DriveVector::Zero();  ///< By the plan's time, at lambda 1; see task_slowing.
   /// What is asked for beside it whatever the pace: a heavy cut gives way at once.
   DriveVector at_once = DriveVector::Zero();
-  TeethPose teeth;  ///< Where they are planned to be.
+  TeethPose teeth;        ///< Where they are planned to be.
+  bool straight = false;  ///< They follow `line`.
+  bool cuts = false;      ///< It leads through soil, or down into it.
+  TeethLine line;
 };
 
 /// A step has arrived with the teeth so near to its end for so long, a platform that swings through
@@ -142,8 +102,9 @@ inline constexpr double kSettleMost_s = 2.0;
                                    const DriveVector& drives_now,
                                    ApproachWay way = ApproachWay::kDirect);
 
-[[nodiscard]] TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
-                               const TaskState& state);
+/// Of a program of steps; of any program in its approach and once it is done.
+[[nodiscard]] TaskAim aim_of_steps(const SwingKinematics& kinematics, const TaskProgram& program,
+                                   const TaskState& state);
 
 /// Of a move of the drives at its time.
 [[nodiscard]] TaskAim aim_of_plan(const SwingKinematics& kinematics, StepKind kind,

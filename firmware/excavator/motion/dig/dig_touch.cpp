@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/motion/dig/layer_touch.hpp"
+#include "firmware/excavator/motion/dig/dig_touch.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "firmware/excavator/motion/dig/dig_phases.hpp"
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
 
 namespace graben {
 namespace {
@@ -48,10 +51,9 @@ TeethPose flat_pose(const SwingKinematics& kinematics, const TaskProgram& progra
 }
 
 /// Towards a speed, with bounded acceleration.
-void change_speed(double wanted_mps, double period_s, LayerState& layers) {
+void change_speed(double wanted_mps, double period_s, DigRun& run) {
   const double by_mps = kChange_mps2 * period_s;
-  layers.height_mps =
-      std::clamp(wanted_mps, layers.height_mps - by_mps, layers.height_mps + by_mps);
+  run.height_mps = std::clamp(wanted_mps, run.height_mps - by_mps, run.height_mps + by_mps);
 }
 
 }  // namespace
@@ -69,10 +71,6 @@ double touch_share(const ExcavatorProfile& profile, const SwingKinematics& kinem
   return -1.0;
 }
 
-bool touches_next(const TaskProgram& program, const TaskState& state) {
-  return program.layers.touch_share >= 0.0 && !state.layers.touched;
-}
-
 TeethPose touch_pose(const SwingKinematics& kinematics, const TaskProgram& program, int strip,
                      double height_m) {
   TeethPose pose = flat_pose(kinematics, program, std::max(0, strip), program.layers.touch_share);
@@ -85,57 +83,61 @@ TeethPose first_touch_pose(const SwingKinematics& kinematics, const TaskProgram&
   return touch_pose(kinematics, program, strip, kOverGround_m);
 }
 
-void begin_touch(TaskState& state) {
-  LayerState& layers = state.layers;
-  layers.phase = CutPhase::kTouches;
-  layers.height_m = kOverGround_m;
-  layers.height_mps = 0.0;
-  layers.give_m = 0.0;
-  layers.air_n = 0.0;
-  layers.up_n = 0.0;
+void TouchPhase::enter(const DigCycle& /*cycle*/, int /*step*/, TaskState& state) {
+  DigRun& run = state.dig;
+  run.height_m = kOverGround_m;
+  run.height_mps = 0.0;
+  run.give_m = 0.0;
+  run.air_n = 0.0;
+  run.up_n = 0.0;
 }
 
-bool touch_on(const TaskProgram& program, const CutSeen& seen, double advance_s, double period_s,
-              TaskState& state) {
-  LayerState& layers = state.layers;
-  const LayerPlan& plan = program.layers;
-  const double seen_m = seen.teeth.position_m.z() - plan.ground_z_m;
-  if (layers.touched) {
-    const double left_m = std::max(0.0, kOverGround_m - layers.height_m);
-    change_speed(std::min(kRises_mps, std::sqrt(2.0 * kChange_mps2 * left_m)), period_s, layers);
-    layers.height_m += std::max(0.0, layers.height_mps) * advance_s;
-    return layers.height_m > kOverGround_m - 0.01;
+bool TouchPhase::go_on(const DigCycle& cycle, TaskState& state) {
+  DigRun& run = state.dig;
+  const CutSeen& seen = cycle.seen;
+  const double seen_m = seen.teeth.position_m.z() - cycle.plan().ground_z_m;
+  if (state.dug.touched) {
+    const double left_m = std::max(0.0, kOverGround_m - run.height_m);
+    change_speed(std::min(kRises_mps, std::sqrt(2.0 * kChange_mps2 * left_m)), cycle.period_s, run);
+    run.height_m += std::max(0.0, run.height_mps) * cycle.advance_s;
+    return run.height_m > kOverGround_m - 0.01;
   }
-  const double over_m = std::max(0.0, layers.height_m - kSlowFrom_m);
+  const double over_m = std::max(0.0, run.height_m - kSlowFrom_m);
   change_speed(
       -std::min(kFalls_mps, std::sqrt(kSlow_mps * kSlow_mps + 2.0 * kChange_mps2 * over_m)),
-      period_s, layers);
-  layers.height_m += state.pace_ratio * layers.height_mps * advance_s;
+      cycle.period_s, run);
+  run.height_m += state.pace_ratio * run.height_mps * cycle.advance_s;
   const double up_n = seen.force_known ? seen.force_n.y() : 0.0;
   if (seen_m > kWeighed_m) {
-    layers.air_n += std::min(1.0, period_s / kWeighs_s) * (up_n - layers.air_n);
+    run.air_n += std::min(1.0, cycle.period_s / kWeighs_s) * (up_n - run.air_n);
   }
-  const bool is_near = layers.height_m < kSlowFrom_m;
-  layers.up_n += std::min(1.0, period_s / kHeard_s) * (up_n - layers.up_n);
-  const bool bears = is_near && seen.force_known && up_n - layers.air_n > kBears * plan.force_n;
-  const bool held = is_near && seen_m - layers.height_m > kHeldUp_m && seen.lambda > 0.0 &&
-                    (!seen.force_known || layers.up_n - layers.air_n > kBearsHeld * plan.force_n);
+  const bool is_near = run.height_m < kSlowFrom_m;
+  run.up_n += std::min(1.0, cycle.period_s / kHeard_s) * (up_n - run.up_n);
+  const double force_n = cycle.plan().force_n;
+  const bool bears = is_near && seen.force_known && up_n - run.air_n > kBears * force_n;
+  const bool held = is_near && seen_m - run.height_m > kHeldUp_m && seen.lambda > 0.0 &&
+                    (!seen.force_known || run.up_n - run.air_n > kBearsHeld * force_n);
   const bool found = bears || held;
-  if (found || seen_m < -kDeepest_m || layers.height_m < -kPlanDeepest_m) {
-    layers.touched = true;
-    layers.zero_m = found && std::abs(seen_m) <= kZeroMost_m ? seen_m * plan.up.z() : 0.0;
-    layers.height_m = seen_m;
-    layers.height_mps = 0.0;
+  if (found || seen_m < -kDeepest_m || run.height_m < -kPlanDeepest_m) {
+    state.dug.touched = true;
+    state.dug.zero_m =
+        found && std::abs(seen_m) <= kZeroMost_m ? seen_m * cycle.plan().up.z() : 0.0;
+    run.height_m = seen_m;
+    run.height_mps = 0.0;
   }
   return false;
+}
+
+void TouchPhase::leave(const DigCycle& cycle, TaskState& state) {
+  enter_step(cycle, cycle.before_cut(), state);
 }
 
 TaskAim aim_of_touch(const SwingKinematics& kinematics, const TaskProgram& program,
                      const TaskState& state) {
   TaskAim aim;
   aim.kind = StepKind::kDig;
-  aim.teeth = touch_pose(kinematics, program, state.layers.cuts.cut.strip, state.layers.height_m);
-  const TeethPose along{{0.0, 0.0, state.layers.height_mps}, 0.0};
+  aim.teeth = touch_pose(kinematics, program, state.dug.cuts.cut.strip, state.dig.height_m);
+  const TeethPose along{{0.0, 0.0, state.dig.height_mps}, 0.0};
   const double near_rad = std::atan2(aim.teeth.position_m.y(), aim.teeth.position_m.x());
   const DriveMotion motion = kinematics.motion_from_teeth(aim.teeth, along, {}, near_rad);
   aim.blind = motion.blind;
