@@ -26,20 +26,21 @@ constexpr double kCutSpeed_mps = 0.6;
 constexpr double kPace = 0.85;
 constexpr double kCarried_rad = 0.3;
 constexpr double kEmptied_rad = 2.0;
-/// Over the ground, that a cut comes down from.
-constexpr double kOver_m = 0.35;
+/// Lengths from here on are shares of the bucket's, teeth to pin; tried on a 12 t machine, 1.23 m.
+/// Height over the ground that a cut comes down from.
+constexpr double kOver = 0.285;
 /// To the left, where nothing is said of where to dump.
 constexpr double kAside_rad = 1.2;
-constexpr double kAsideHeight_m = 1.6;
+constexpr double kAsideHeight = 1.3;
 /// Beyond the far end, of a machine that can't swing: as far as it reaches, so that the heap's foot
 /// stays out of the cut.
-constexpr double kBeyondMost_m = 2.6;
-constexpr double kBeyondStep_m = 0.1;
+constexpr double kBeyondMost = 2.1;
+constexpr double kBeyondStep = 0.08;
 constexpr int kBeyondSteps = 12;
 /// Over the far end: a straight way from the heap's top down to the cut would scrape its side.
-constexpr double kOverHeap_m = 1.0;
+constexpr double kOverHeap = 0.8;
 /// Of a slope's plane, that far beyond its far end.
-constexpr double kRise_m = 2.0;
+constexpr double kRise = 1.6;
 constexpr int kStripsUsual = 3;
 /// Strips overlap by this share of the bucket's width.
 constexpr double kOverlap = 0.15;
@@ -71,8 +72,9 @@ struct Area {
 /// to that which keeps the floor clear; first steeper ones. As wanted where there is none.
 double reachable_attitude(const SwingKinematics& kinematics, const Eigen::Vector3d& design_m,
                           double ground_m, double wanted_rad) {
+  const double bucket_m = kinematics.geometry().bucket_length_m;
   const auto reaches = [&](double attitude_rad) {
-    for (const double height_m : {design_m.z() + kClearance_m, ground_m + kOver_m}) {
+    for (const double height_m : {design_m.z() + kClearance_m, ground_m + kOver * bucket_m}) {
       TeethPose pose{{design_m.x(), design_m.y(), height_m}, attitude_rad};
       if (kinematics.drive_from_teeth(pose).blind.kind != BlindKind::kNone) {
         return false;
@@ -99,16 +101,17 @@ TeethPose dump_pose(const Eigen::Vector3d& dump_m, double bucket_m, double attit
 }
 
 Eigen::Vector3d usual_dump(const Area& area, const ExcavatorProfile& profile) {
-  const double height_m = area.ground_m + kAsideHeight_m;
+  const double bucket_m = profile.geometry.bucket_length_m;
+  const double height_m = area.ground_m + kAsideHeight * bucket_m;
   if (profile.has_swing()) {
     return at(0.5 * (area.far_m + area.near_m), height_m, area.turn_rad + kAside_rad);
   }
   const SwingKinematics kinematics(profile.geometry);
   Eigen::Vector3d dump_m;
   for (int n = 0; n <= kBeyondSteps; ++n) {
-    dump_m = at(area.far_m + kBeyondMost_m - n * kBeyondStep_m, height_m, area.turn_rad);
+    dump_m = at(area.far_m + (kBeyondMost - n * kBeyondStep) * bucket_m, height_m, area.turn_rad);
     const auto reaches = [&](double attitude_rad) {
-      const TeethPose pose = dump_pose(dump_m, profile.geometry.bucket_length_m, attitude_rad);
+      const TeethPose pose = dump_pose(dump_m, bucket_m, attitude_rad);
       return kinematics.drive_from_teeth(pose).blind.kind == BlindKind::kNone;
     };
     if (reaches(kCarried_rad) && reaches(kEmptied_rad)) {
@@ -120,9 +123,10 @@ Eigen::Vector3d usual_dump(const Area& area, const ExcavatorProfile& profile) {
 
 /// From a heap beyond the far end the teeth come back over it, and over the plane of a slope, which
 /// rises there.
-TeethPose over_far_end(const Area& area, double attitude_rad) {
-  const double rises_m = kRise_m * std::max(0.0, area.fall_m() / area.run_m());
-  return {at(area.far_m, area.ground_m + kOverHeap_m + rises_m, area.turn_rad), attitude_rad};
+TeethPose over_far_end(const Area& area, double bucket_m, double attitude_rad) {
+  const double rises_m = kRise * bucket_m * std::max(0.0, area.fall_m() / area.run_m());
+  return {at(area.far_m, area.ground_m + kOverHeap * bucket_m + rises_m, area.turn_rad),
+          attitude_rad};
 }
 
 Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
@@ -214,7 +218,7 @@ ProgramRequest read_area(TomlReader& reader, const ExcavatorProfile& profile) {
   add(move_to(StepKind::kSwing, carried));
   add(move_to(StepKind::kDump, dump_pose(area.dump_m, bucket_m, kEmptied_rad)));
   if (!profile.has_swing()) {
-    add(move_to(StepKind::kReturnToDig, over_far_end(area, request.start.attitude_rad)));
+    add(move_to(StepKind::kReturnToDig, over_far_end(area, bucket_m, request.start.attitude_rad)));
   }
   add(move_to(StepKind::kReturnToDig, request.start));
   request.step_count = next;

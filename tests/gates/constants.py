@@ -28,7 +28,8 @@ PER = {"m": "m", "s": "s", "mm": "mm", "rad": "rad", "kg": "kg", "n": "N", "nm":
        "radps2": "rad/s2", "ps": "1/s", "ps2": "1/s2", "pm": "1/m", "pm2": "1/m2", "m3ps": "m3/s", "kgpm3": "kg/m3",
        "mpn": "m/N", "npm": "N/m", "paps": "Pa/s", "m2ps2": "m2/s2", "paspm3": "Pa s/m3", "pas2pm6": "Pa s2/m6",
        "paspm": "Pa s/m", "ppa": "1/Pa", "radpm": "rad/m", "m3prad": "m3/rad", "mpsn": "m/(s N)", "nsps": "N s/s",
-       "kgm2": "kg m2", "mpspa": "m/(s Pa)", "jpkg": "J/kg", "npm2": "N/m2", "bytes": "bytes", "bits": "bits"}
+       "kgm2": "kg m2", "mpspa": "m/(s Pa)", "jpkg": "J/kg", "npm2": "N/m2", "bytes": "bytes", "bits": "bits",
+       "share": "-", "shares": "-", "ratio": "-"}
 PLAIN = {"-", "cycles", "K", "degC", "bit/s", "1/cycle", "m/s/cycle"} | set(PER.values())
 DECLARED = re.compile(
     r"^[ \t]*(?:inline |static )*constexpr (?P<type>[\w:<>, ]*?) ?\b(?P<name>k[A-Z]\w*)(?:\[\w*\])?\s*(?:=|\{)", re.MULTILINE)

@@ -13,6 +13,7 @@ LayerPlan plan() {
   plan.ground_to_m = 0.5;
   plan.way_m = 2.0;
   plan.width_m = 1.0;
+  plan.bucket_m = 1.23;
   plan.full_m3 = 0.4;
   plan.depth_most_m = 0.35;
   return plan;
@@ -127,7 +128,7 @@ TEST(goes_down_cut_by_cut) {
     assert_true(state.cut.height_m >= 0.0);
     assert_true(state.cut.thin == (state.cut.height_m == 0.0));
     if (state.cut.thin) {
-      assert_true(last_m <= kLastLayer_m + kRough_m + 1e-6);
+      assert_true(last_m <= kLastLayer_share * plan.bucket_m + kRough_m + 1e-6);
     }
     last_m = state.cut.height_m;
     const double got_m3 = cut_through(whole, last_m, state);

@@ -204,8 +204,8 @@ TEST(a_full_bucket_ends_the_cut) {
     return at.dig.phase == CutPhase::kLifts;
   });
   const double full_m3 = program.layers.full_m3;
-  assert_true(state.dig.filled_m3 > 0.95 * full_m3);
-  assert_true(state.dig.filled_m3 < 1.2 * full_m3);
+  assert_true(state.dug.cuts.loaded_m3 > 0.95 * full_m3);
+  assert_true(state.dug.cuts.loaded_m3 < 1.2 * full_m3);
 }
 
 /// The bucket comes out of the ground folded in, before it swings.

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// An area that is dug in layers, paused with the bucket in the air in every way that there is: the
-// dig goes on where it was.
+// An area that is dug in layers, paused in the air, within a cut and with a full bucket in every
+// way that there is: the dig goes on where it was.
 
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "app/runs/excavator_rig.hpp"
 #include "app/runs/scenarios.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/memory_access.hpp"
 
@@ -21,7 +24,7 @@ struct Digging {
     book.program[0] = program;
     book.count = 1;
     rig.emplace(machine, book, program.start, 1.0);
-    run_until([this] { return task_state().dug.cuts.cuts >= 1; });
+    run_until([this] { return task_state().dig.phase == CutPhase::kCuts; });
   }
 
   [[nodiscard]] const TaskState& task_state() {
@@ -68,24 +71,44 @@ struct Digging {
     repeat(200, [this] { step(); });
     begin_anew();
   }
-  /// What was dug is known when the task runs again, and until it cuts again.
-  template <class Stop>
-  void goes_on_after(Stop&& stop) {
-    run_until([this] { return status().progress.kind == StepKind::kSwing || is_done(); });
+  /// What was dug is known when the task runs again, and until it cuts again. From `reached` on: a
+  /// bucket that has cut is emptied before that.
+  template <class Stop, class Reached>
+  void goes_on_after(Stop&& stop, Reached&& reached) {
+    run_until([&] { return reached() || is_done(); });
     if (is_done()) {
       return;
     }
     ++pauses;
-    const CutState before = task_state().dug.cuts;
-    const double zero_m = task_state().dug.zero_m;
+    const auto before = task_state().dug;
     stop();
     run_until([this] { return status().mode == EcuMode::kActive && status().progress.runs; });
-    assert_true(task_state().dug.begun && task_state().dug.touched);
-    assert_near(task_state().dug.zero_m, zero_m, 0.0);
-    assert_true(task_state().dug.cuts.height_m == before.height_m);
-    run_until([this] { return task_state().dig.phase == CutPhase::kCuts || is_done(); });
-    assert_true(task_state().dug.cuts.height_m == before.height_m);
+    const Dug& dug = task_state().dug;
+    assert_true(dug.begun && dug.touched);
+    assert_near(dug.zero_m, before.zero_m, 0.0);
+    assert_true(dug.cuts.height_m == before.cuts.height_m);
+    bool emptied = !before.loaded;
+    run_until([&] {
+      assert_true(status().mode == EcuMode::kActive);
+      emptied = emptied || status().progress.kind == StepKind::kDump;
+      return task_state().dig.phase == CutPhase::kEnters || is_done();
+    });
+    assert_true(emptied);
+    for (std::size_t strip = 0; strip < dug.cuts.height_m.size(); ++strip) {
+      for (std::size_t bin = 0; bin < dug.cuts.height_m[strip].size(); ++bin) {
+        // What has fallen in is swept.
+        assert_true(dug.cuts.height_m[strip][bin] <=
+                    std::max(before.cuts.height_m[strip][bin], static_cast<float>(kRough_m)));
+      }
+    }
   }
+  /// In the middle of a cut.
+  [[nodiscard]] bool cuts() {
+    return task_state().dig.phase == CutPhase::kCuts && task_state().dig.share > 0.4;
+  }
+  [[nodiscard]] bool lifts() { return task_state().dig.phase == CutPhase::kLifts; }
+  [[nodiscard]] bool swings() const { return status().progress.kind == StepKind::kSwing; }
+  [[nodiscard]] bool returns() const { return status().progress.kind == StepKind::kReturnToDig; }
 
   runs::TaskScenario scenario;
   std::optional<runs::AutodigRig> rig;
@@ -93,16 +116,33 @@ struct Digging {
   int pauses = 0;
 };
 
+constexpr std::array kAreas = {"trench", "slope", "level", "bench", "truck_loading"};
+
 /// The operator's frames come every 20 ms: a pause of one cycle is goes_on_where_it_was's.
 TEST(a_dig_goes_on_in_every_area) {
-  for (const char* task : {"trench", "slope", "level", "bench", "truck_loading"}) {
+  for (const char* task : kAreas) {
     Digging dig(task);
+    const auto returns = [&] { return dig.returns(); };
     for (const int cycles : {2, 100}) {
-      dig.goes_on_after([&] { dig.rest(cycles * runs::AutodigRig::kPeriod_us); });
+      dig.goes_on_after([&] { dig.rest(cycles * runs::AutodigRig::kPeriod_us); }, returns);
     }
-    dig.goes_on_after([&] { dig.be_silent(); });
-    dig.goes_on_after([&] { dig.drive_by_hand(); });
+    dig.goes_on_after([&] { dig.be_silent(); }, returns);
+    dig.goes_on_after([&] { dig.drive_by_hand(); }, [&] { return dig.swings(); });
     print_message("%s: %d pauses, %d cuts\n", task, dig.pauses, dig.task_state().dug.cuts.cuts);
     assert_true(dig.pauses >= 3);  // The smallest area has four cuts.
+  }
+}
+
+/// It is lifted out and emptied first; so is a full bucket in the air.
+TEST(a_dig_goes_on_from_within_the_ground) {
+  for (const char* task : kAreas) {
+    Digging dig(task);
+    dig.goes_on_after([&] { dig.rest(2 * runs::AutodigRig::kPeriod_us); },
+                      [&] { return dig.cuts(); });
+    dig.goes_on_after([&] { dig.rest(100 * runs::AutodigRig::kPeriod_us); },
+                      [&] { return dig.swings(); });
+    dig.goes_on_after([&] { dig.be_silent(); }, [&] { return dig.lifts(); });
+    print_message("%s: %d pauses, %d cuts\n", task, dig.pauses, dig.task_state().dug.cuts.cuts);
+    assert_true(dig.pauses >= 2);
   }
 }

@@ -3,13 +3,10 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/motion/dig/tuning.hpp"
+
 namespace graben {
-namespace {
-
-/// At this lambda a cut does not get on.
-constexpr double kStandsAt = 0.1;
-
-}  // namespace
+namespace {}  // namespace
 
 double force_share(const LayerPlan& plan, const TeethLine& line, const CutSeen& seen, bool enters) {
   if (!seen.force_known || !(plan.force_n > 0.0)) {
@@ -29,9 +26,9 @@ double off_foot_m(const LayerPlan& plan, const Cut& cut, const CutSeen& seen) {
              : 0.0;
 }
 
-double heaviness(double force, const CutSeen& seen) {
+double heaviness(const LayerPlan& plan, double force, const CutSeen& seen) {
   const double held = seen.lambda < kStandsAt ? kHoldsAt : 0.0;
-  return std::max({force, seen.behind_m / kBehind_m, held});
+  return std::max({force, seen.behind_m / (kBehind_share * plan.bucket_m), held});
 }
 
 }  // namespace graben

@@ -16,11 +16,6 @@ namespace graben {
 [[nodiscard]] double off_foot_m(const LayerPlan& plan, const Cut& cut, const CutSeen& seen);
 
 /// 1: as heavy as a cut may be. `force`: by force_share().
-[[nodiscard]] double heaviness(double force, const CutSeen& seen);
-
-/// With the teeth so far behind their plan a cut is as heavy as it may be.
-inline constexpr double kBehind_m = 0.08;
-/// A cut that is so heavy stands.
-inline constexpr double kHoldsAt = 1.4;
+[[nodiscard]] double heaviness(const LayerPlan& plan, double force, const CutSeen& seen);
 
 }  // namespace graben

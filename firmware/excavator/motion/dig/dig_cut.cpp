@@ -6,30 +6,10 @@
 #include "firmware/excavator/motion/dig/dig_phases.hpp"
 #include "firmware/excavator/motion/dig/layer_height.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// What a heel stands on in a cut, pressed down, counts so much of what is before the edge.
-constexpr double kBorne = 0.7;
-/// Back down to the layer where it is light again.
-constexpr double kReturns_mps = 0.05;
-/// Down the foot of a wall that is cut back.
-constexpr double kFootDown_mps = 0.25;
-constexpr double kEasy = 0.7;
-/// From here on a cut slows down, until it stands at kHoldsAt.
-constexpr double kSlowsAt = 0.9;
-/// A heavy cut that gets on by less, for so long, is ended; sooner at a wall.
-constexpr double kGetsOn_mps = 0.01;
-constexpr double kHeld_s = 1.0;
-constexpr double kWallHeld_s = 0.6;
-/// At a cut's end the teeth are waited for.
-constexpr double kEndWait_s = 0.6;
-constexpr double kEndNear_m = 0.02;
-/// What springs by less is let be.
-constexpr double kSpringFree_m = 0.018;
-/// Of the force that a cut may take, at a wall.
-constexpr double kWallPulls = 0.55;
 
 /// A wall that breaks off lets the oil throw the teeth down: its force counts for more.
 double counts(const DigRun& run, double force) {
@@ -40,7 +20,8 @@ double counts(const DigRun& run, double force) {
 double heavy_of(const DigCycle& cycle, double force, const TaskState& state) {
   const TeethLine line = cut_line(cycle.program, state);
   const double borne = kBorne * force_share(cycle.plan(), line, cycle.seen, true);
-  return heaviness(counts(state.dig, std::max(force, borne)), cycle.seen);
+  return heaviness(cycle.plan(), counts(state.dig, std::max(force, borne)) / state.dug.cuts.force,
+                   cycle.seen);
 }
 
 /// The edge's height, which gives way upwards to what is too heavy.
@@ -53,11 +34,13 @@ void give_way(const DigCycle& cycle, double force, double heavy, TaskState& stat
                                           : 0.0;
   run.give_m = std::clamp(run.give_m + cycle.period_s * change_m, 0.0, at.enters_m - at.height_m);
   // What the oil gives back when the force goes must not lead through the design.
-  const double gives_m = std::max(cycle.plan().give_mpn * force * cycle.plan().force_n,
+  const double throws = turns(cycle.program, state) ? kSteepThrows : 1.0;
+  const double gives_m = std::max(throws * cycle.plan().give_mpn * force * cycle.plan().force_n,
                                   off_foot_m(cycle.plan(), at, seen));
-  const double springs_m = gives_m - kSpringFree_m - at.height_m;
+  const double springs_m = gives_m - kCutSpringFree_m - at.height_m;
   // Nor is soil that holds the teeth up pressed on by a plan that is farther below than this.
-  const double held_up_m = seen_height_m(cycle.program, seen, state) - kBehind_m - at.height_m;
+  const double held_up_m = seen_height_m(cycle.program, seen, state) -
+                           kBehind_share * cycle.plan().bucket_m - at.height_m;
   rise(cycle,
        std::max(at.height_m + std::max({run.give_m, springs_m, held_up_m}),
                 wanted_height_m(cycle.program, state)),
@@ -89,8 +72,9 @@ void take(const DigCycle& cycle, TaskState& state) {
   const Eigen::Vector3d off_m = cycle.seen.teeth.position_m - line.from.position_m;
   const double share = off_m.dot(line.change.position_m) / line.change.position_m.squaredNorm();
   if (share > run.seen_share) {
-    run.filled_m3 += pass(cycle.plan(), share, run.seen_share,
-                          seen_height_m(cycle.program, cycle.seen, state), state.dug.cuts);
+    state.dug.cuts.filled_m3 +=
+        pass(cycle.plan(), share, run.seen_share, seen_height_m(cycle.program, cycle.seen, state),
+             state.dug.cuts);
     run.seen_share = share;
   }
 }
@@ -103,9 +87,9 @@ bool ends(const DigCycle& cycle, double heavy, TaskState& state) {
   const bool at_end = run.share >= 1.0;
   run.held_s = held || at_end ? run.held_s + cycle.period_s : 0.0;
   const bool reached = at_end && (cycle.seen.behind_m < kEndNear_m || run.held_s > kEndWait_s);
-  const double held_most_s = run.share < 0.0 ? kWallHeld_s : kHeld_s;
+  const double held_most_s = run.share < 0.0 ? kWallHeld_s : kCutHeld_s;
   return reached || run.held_s > held_most_s ||
-         cuts.loaded_m3 + run.filled_m3 >=
+         cuts.loaded_m3 + cuts.filled_m3 >=
              std::max(filling_m3(cycle.plan(), cuts), cuts.cut.volume_m3);
 }
 
@@ -122,6 +106,7 @@ void CutsPhase::enter(const DigCycle& cycle, int /*step*/, TaskState& state) {
   // What it can't be pressed down to is come down to on the way.
   run.give_m = std::max(0.0, run.height_m - least_m);
   run.entered = cycle.seen.teeth;
+  state.dug.loaded = true;
   run.held_s = 0.0;
 }
 
@@ -143,7 +128,7 @@ void CutsPhase::leave(const DigCycle& cycle, TaskState& state) {
   enter_phase(CutPhase::kLifts, cycle, state.step, state);
   const DigRun& run = state.dig;
   next_cut(cycle.plan(),
-           {run.cut_s > 0.0 ? run.heavy_s / run.cut_s : kHoldsAt, run.filled_m3,
+           {run.cut_s > 0.0 ? run.heavy_s / run.cut_s : kHoldsAt, state.dug.cuts.filled_m3,
             std::max(0.0, run.share)},
            state.dug.cuts);
 }

@@ -6,30 +6,10 @@
 #include "firmware/excavator/motion/dig/dig_phases.hpp"
 #include "firmware/excavator/motion/dig/layer_height.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 
 namespace graben {
 namespace {
-
-constexpr double kFalls_mps = 0.8;
-/// From so far over the soil on it comes down slower.
-constexpr double kSlowsFrom_m = 0.05;
-constexpr double kEnters_mps = 0.3;
-/// A cut's height is reached this near to it, by the plan and by the teeth: of the last cut, and of
-/// others.
-constexpr double kAtLayer_m = 2e-3;
-constexpr double kDown_m = 0.008;
-constexpr double kRoughDown_m = 0.02;
-constexpr double kHeld_s = 1.0;
-/// What springs by less is let be; and what would spring by more through the design is not pressed.
-constexpr double kSpringFree_m = 0.010;
-constexpr double kSpringMost_m = 0.020;
-/// Oil that is let go throws its load farther than it gives under it, and is softer than its file
-/// says.
-constexpr double kThrows = 3.0;
-/// The plan goes so far up over the teeth to let off.
-constexpr double kLetsOff_m = 0.10;
-constexpr double kLetsOff_s = 0.8;
-constexpr double kLifted_m = 0.010;
 
 /// What the teeth spring down by when the ground bears them no more.
 double springs_m(const LayerPlan& plan, const CutSeen& seen) {
@@ -41,7 +21,7 @@ bool lets_off(const DigCycle& cycle, TaskState& state) {
   const double seen_m = seen_height_m(cycle.program, cycle.seen, state);
   rise(cycle, seen_m + kLetsOff_m, kEnters_mps, state);
   run.held_s += cycle.period_s;
-  return springs_m(cycle.plan(), cycle.seen) < kSpringFree_m || run.held_s > kLetsOff_s ||
+  return springs_m(cycle.plan(), cycle.seen) < kEntersSpringFree_m || run.held_s > kLetsOff_s ||
          seen_m > run.stood_m + kLifted_m;
 }
 
@@ -56,7 +36,7 @@ void EnterPhase::enter(const DigCycle& /*cycle*/, int /*step*/, TaskState& state
   run.height_mps = 0.0;
   run.rate_ps = 0.0;
   run.give_m = 0.0;
-  run.filled_m3 = 0.0;
+  state.dug.cuts.filled_m3 = 0.0;
   run.cut_s = 0.0;
   run.heavy_s = 0.0;
   run.held_s = 0.0;
@@ -76,23 +56,23 @@ bool EnterPhase::go_on(const DigCycle& cycle, TaskState& state) {
   // Teeth that are off to a side, their platform still swinging, are held up by nothing.
   CutSeen over = seen;
   over.behind_m = std::max(0.0, seen_m - run.height_m);
-  const double heavy =
-      heaviness(force_share(cycle.plan(), cut_line(cycle.program, state), seen, true), over);
+  const double force = force_share(cycle.plan(), cut_line(cycle.program, state), seen, true);
+  const double heavy = heaviness(cycle.plan(), force / state.dug.cuts.force, over);
   const double springs = springs_m(cycle.plan(), seen);
-  const bool stops = heavy > 1.0 || kThrows * springs > seen_m + kSpringMost_m;
-  const double over_m = std::max(0.0, run.height_m - cut.stands_m - kSlowsFrom_m);
+  const bool stops = heavy > 1.0 || kThrows * springs > seen_m + kEntersSpringMost_m;
+  const double over_m = std::max(0.0, run.height_m - cut.stands_m - kEntersSlowFrom_m);
   const double down_mps = std::min(
-      kFalls_mps, std::sqrt(kEnters_mps * kEnters_mps + 2.0 * kHeightChange_mps2 * over_m));
+      kEntersFalls_mps, std::sqrt(kEnters_mps * kEnters_mps + 2.0 * kHeightChange_mps2 * over_m));
   rise(cycle, stops ? std::max(target_m, seen_m) : target_m, down_mps, state);
   const bool arrived = run.height_m - target_m < kAtLayer_m;
   if (stops || arrived) {
     run.held_s += cycle.period_s;
   }
   const bool down = seen_m - target_m < (cut.thin ? kDown_m : kRoughDown_m);
-  if (!(arrived && down) && !(run.held_s > kHeld_s)) {
+  if (!(arrived && down) && !(run.held_s > kEntersHeld_s)) {
     return false;
   }
-  run.eases = springs > kSpringFree_m;
+  run.eases = springs > kEntersSpringFree_m;
   run.stood_m = seen_m;
   run.held_s = 0.0;
   return !run.eases;

@@ -4,50 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/motion/dig/tuning.hpp"
+
 namespace graben {
 namespace {
-
-constexpr double kDepthLeast_m = 0.06;
-/// A bucket is full before it has come to the line's end.
-constexpr double kFullAt = 0.8;
-/// Over the soil, that the edge comes down from.
-constexpr double kOver_m = 0.25;
-/// A bucket takes so much more than what fills it, some of it before its edge; and the last layer
-/// may be so thick then.
-constexpr double kOverfill = 1.25;
-constexpr double kSparedAt_m = 0.085;
-/// Before the soil that is to be cut, where there is room.
-constexpr double kRunUp_m = 0.25;
-/// What stands out of a strip is cut this much deeper than the rest of it.
-constexpr double kBump = 1.5;
-/// Of what is given way to: cuts that are heavier become less deep, lighter ones deeper.
-constexpr double kHeavy = 0.9;
-constexpr double kLight = 0.5;
-constexpr double kDeeper = 1.15;
-constexpr double kShallower = 0.75;
-/// Of a full bucket: less is next to nothing.
-constexpr double kLittle = 0.1;
-/// The same of what a cut brings beside what its edge has passed, which is off by so much itself:
-/// three deviations of a payload. And of a sweep, which brings the loose rest of the one before.
-constexpr double kFallen = 0.05;
-constexpr double kPassedOff = 0.15;
-constexpr double kFallenToSweep = 0.15;
-/// So much at once moves what stands beside and before it: a last cut that brings it is swept
-/// after.
-constexpr double kMoves = 0.4;
-/// A cut that was stopped says nothing of what is farther than this along the line.
-constexpr double kPastStop = 0.15;
-/// With so much of a full bucket the wall at the line's beginning falls in too.
-constexpr double kWallFalls = 0.55;
-/// So does one that has let soil fall in so many times.
-constexpr std::uint8_t kWallSweeps = 2;
-
-/// What is weighed against what the edge has passed, of a bucket that is so far full; how far one
-/// such round is believed, and what is.
-constexpr double kTells = 0.6;
-constexpr double kBelieved = 0.4;
-constexpr double kYieldsLeast = 0.75;
-constexpr double kYieldsMost = 1.0;
 
 double share_of(int bin) { return (bin + 0.5) / kStripBins; }
 
@@ -105,7 +65,7 @@ int next_strip(const LayerPlan& plan, const CutState& state) {
 
 /// The lowest height that no more soil stands over than there is room for.
 double filling_height_m(const LayerPlan& plan, const Strip& strip, double room_m3) {
-  constexpr int kHalvings = 20;
+  constexpr int kHalvings = 20;  ///< Halvings of a height. [-; size: 1 m down to 1 um]
   double low_m = 0.0;
   double high_m = highest_m(strip);
   if (volume_m3(plan, strip, low_m) <= room_m3) {
@@ -120,7 +80,7 @@ double filling_height_m(const LayerPlan& plan, const Strip& strip, double room_m
 
 /// A little more than fills the bucket, shared evenly, where that saves a round.
 double room_of(const LayerPlan& plan, const Strip& strip, double full_m3) {
-  const double above_m3 = volume_m3(plan, strip, kSparedAt_m);
+  const double above_m3 = volume_m3(plan, strip, kSparedAt_share * plan.bucket_m);
   const double fewest = std::ceil(above_m3 / (kOverfill * full_m3));
   return fewest >= 1.0 && fewest < std::ceil(above_m3 / full_m3) ? above_m3 / fewest : full_m3;
 }
@@ -130,11 +90,12 @@ Cut cut_of(const LayerPlan& plan, const CutState& state, int strip) {
   const double highest = highest_m(tops);
   Cut cut;
   cut.strip = strip;
-  cut.thin = highest <= kThinMost_m;
+  cut.thin = highest <= kThinMost_share * plan.bucket_m;
   if (!cut.thin) {
     const double room_m3 = room_of(plan, tops, filling_m3(plan, state));
-    cut.height_m = std::max({kLastLayer_m, filling_height_m(plan, tops, room_m3),
-                             mean_m(plan, tops) - state.depth_m, highest - kBump * state.depth_m});
+    cut.height_m =
+        std::max({kLastLayer_share * plan.bucket_m, filling_height_m(plan, tops, room_m3),
+                  mean_m(plan, tops) - state.depth_m, highest - kBump * state.depth_m});
   }
   const double over_m = cut.height_m + (cut.thin ? kFinish_m : kRough_m);
   int bin = 0;
@@ -142,10 +103,12 @@ Cut cut_of(const LayerPlan& plan, const CutState& state, int strip) {
     ++bin;
   }
   if (bin > 0) {
-    cut.from_share = std::max(0.0, static_cast<double>(bin) / kStripBins - kRunUp_m / plan.way_m);
+    cut.from_share = std::max(
+        0.0, static_cast<double>(bin) / kStripBins - kRunUp_share * plan.bucket_m / plan.way_m);
   }
   cut.stands_m = highest;
-  cut.enters_m = std::max(ground_m(plan, cut.from_share), cut.height_m) + kOver_m;
+  cut.enters_m =
+      std::max(ground_m(plan, cut.from_share), cut.height_m) + kEntersOver_share * plan.bucket_m;
   cut.volume_m3 = volume_m3(plan, tops, cut.height_m);
   return cut;
 }
@@ -182,6 +145,16 @@ int restless_strip(const LayerPlan& plan, const CutState& state, int last) {
   return found;
 }
 
+/// Depth of the next cut, of this one's.
+double deeper_by(const LayerPlan& plan, const CutEnd& end, const CutState& state) {
+  const double wanted_m3 = std::min(state.cut.volume_m3, filling_m3(plan, state));
+  if (!state.cut.thin && end.share > kGaveWayFrom && end.heavy > kCutLight &&
+      end.filled_m3 < kGaveWay * wanted_m3) {
+    return std::max(kShallowest, end.filled_m3 / (kGaveWay * wanted_m3) * kShallower);
+  }
+  return end.heavy > kCutHeavy ? kShallower : end.heavy < kCutLight ? kDeeper : 1.0;
+}
+
 void sweep(const LayerPlan& plan, int strip, CutState& state) {
   const auto at = static_cast<unsigned>(strip);
   ++state.sweeps[at];
@@ -207,8 +180,8 @@ CutState undug(const LayerPlan& plan) {
           static_cast<float>(std::max(0.0, ground_m(plan, share_of(bin))));
     }
   }
-  state.depth_m = std::clamp(plan.full_m3 / (kFullAt * plan.way_m * plan.width_m), kDepthLeast_m,
-                             plan.depth_most_m);
+  state.depth_m = std::clamp(plan.full_m3 / (kFullAt * plan.way_m * plan.width_m),
+                             kDepthLeast_share * plan.bucket_m, plan.depth_most_m);
   choose(plan, state);
   return state;
 }
@@ -230,12 +203,20 @@ double pass(const LayerPlan& plan, double share, double last_share, double heigh
 }
 
 void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
-  const double factor = end.heavy > kHeavy ? kShallower : end.heavy < kLight ? kDeeper : 1.0;
-  state.depth_m = std::clamp(factor * state.depth_m, kDepthLeast_m, plan.depth_most_m);
+  const double least_m = kDepthLeast_share * plan.bucket_m;
+  const double factor = deeper_by(plan, end, state);
+  // What less depth may still get is not given up.
+  const bool may_get_more = !state.cut.thin && factor < 1.0 && state.depth_m > least_m;
+  if (factor < 1.0 && state.depth_m <= kHarderFrom * least_m) {
+    state.force = std::min(kHarder * state.force, kForceMost / kForceUsed);
+  }
+  state.depth_m = std::clamp(factor * state.depth_m, least_m, plan.depth_most_m);
   state.loaded_m3 += end.filled_m3;
   const int strip = state.cut.strip;
   const bool little = end.filled_m3 < kLittle * plan.full_m3;
-  state.tries = little ? static_cast<std::uint8_t>(state.tries + 1) : std::uint8_t{0};
+  state.filled_m3 = 0.0;
+  const int tries = little ? state.tries + (may_get_more ? 0 : 1) : 0;
+  state.tries = static_cast<std::uint8_t>(tries);
   // A wall that stops a sweep has not fallen in: what is left is swept from within.
   const bool stopped = state.swept && end.heavy > 1.0 && little && state.cut.from_share < 0.0;
   state.wall_falls = state.wall_falls && !stopped;
@@ -251,6 +232,14 @@ void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state) {
   if (state.cut.strip != strip) {
     state.tries = 0;
   }
+}
+
+void abandon_cut(const LayerPlan& plan, CutState& state) {
+  state.loaded_m3 += state.filled_m3;
+  state.filled_m3 = 0.0;
+  state.last_strip = -1;
+  state.swept = false;
+  choose(plan, state);
 }
 
 double filling_m3(const LayerPlan& plan, const CutState& state) {
@@ -271,7 +260,7 @@ void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state) {
                                 ? kFallen * plan.full_m3 + (1.0 + kPassedOff) * state.last_m3
                                 : kFallenToSweep * plan.full_m3;
     const bool fallen = weighed_m3 >= still_m3;
-    const bool moved = weighed_m3 >= kMoves * plan.full_m3;
+    const bool moved = weighed_m3 >= kMovesSoil * plan.full_m3;
     state.moves[static_cast<unsigned>(strip)] = fallen || moved;
   }
   const int restless =

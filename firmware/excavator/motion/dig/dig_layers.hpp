@@ -10,7 +10,9 @@
 
 namespace graben {
 
+/// Most strips side by side. [-; size: of CutState]
 inline constexpr int kStripMost = 5;
+/// Places along a strip whose height is kept. [-; size: of CutState]
 inline constexpr int kStripBins = 24;
 
 /// How a dig step is done in layers. Heights are along `up`, from the step's line, which lies
@@ -23,6 +25,7 @@ struct LayerPlan {
   double ground_z_m = 0.0;     ///< Height of that ground over the ground frame.
   double way_m = 0.0;          ///< Length of the line.
   double width_m = 0.0;        ///< Of the bucket.
+  double bucket_m = 0.0;       ///< Its length, teeth to pin: a dig's own lengths are shares of it.
   double full_m3 = 0.0;        ///< Of the ground, that fills the bucket.
   double depth_most_m = 0.0;   ///< Of a cut.
   double force_n = 0.0;        ///< On the teeth, that a cut gives way to.
@@ -56,7 +59,9 @@ struct CutState {
   std::array<std::array<float, kStripBins>, kStripMost> height_m{};
   Cut cut;
   double depth_m = 0.0;    ///< Of cuts, as the force lets them be.
-  double loaded_m3 = 0.0;  ///< Of the ground, in the bucket by what the edge has passed.
+  double force = 1.0;      ///< That a cut gives way to, of the plan's.
+  double loaded_m3 = 0.0;  ///< Of the ground, in the bucket by what the edge has passed,
+  double filled_m3 = 0.0;  ///< and what this cut adds to it.
   std::uint8_t tries = 0;  ///< Cuts of a strip in a row that got next to nothing.
   std::uint8_t cuts = 0;   ///< So far, of all.
   std::array<std::uint8_t, kStripMost> sweeps{};  ///< Of them, for what has fallen in there.
@@ -93,32 +98,15 @@ struct CutEnd {
 /// too heavy are less deep, after an easy one deeper.
 void next_cut(const LayerPlan& plan, const CutEnd& end, CutState& state);
 
+/// The cut was broken off, which says nothing of its depth: another one is chosen.
+void abandon_cut(const LayerPlan& plan, CutState& state);
+
 /// What the last cut has brought was weighed; 0: it was not. Less than its edge has passed: the
 /// next one takes more to fill the bucket. More: soil has fallen in from beside it. Once the task
 /// is through, such strips are cut again until no more has, kSweepsMost times each.
 void weigh_cut(const LayerPlan& plan, double weighed_m3, CutState& state);
 
-/// Soil counts as left if it stands higher by so much over a cut; over the design itself; at its
-/// end, where soil piles up before the wall that stays; and in one place of a strip by this much
-/// more.
-inline constexpr double kRough_m = 0.03;
-inline constexpr double kFinish_m = 0.018;
-inline constexpr double kEnd_m = 0.035;
-inline constexpr double kOnePlace_m = 0.008;
-/// The last cut keeps so much more where its bucket is still steep.
-inline constexpr double kSteepHigher_m = 0.006;
-/// The last layer's thickness: its force is small, and so is what the teeth spring by.
-inline constexpr double kLastLayer_m = 0.06;
-/// What stands no higher is the last layer too: a bucket more for so little takes longer.
-inline constexpr double kThinMost_m = 0.13;
 /// Of the ground, that the edge has to pass until the bucket is full.
 [[nodiscard]] double filling_m3(const LayerPlan& plan, const CutState& state);
-
-inline constexpr int kTriesMost = 3;
-/// The same of the last layer, where a cut that got little has left what more of them would leave.
-inline constexpr int kThinTriesMost = 1;
-inline constexpr int kSweepsMost = 16;
-/// With so many cuts a task ends, whatever is left.
-inline constexpr int kCutsMost = 250;
 
 }  // namespace graben

@@ -2,16 +2,11 @@
 #include "firmware/excavator/motion/dig/cut_force.hpp"
 #include "firmware/excavator/motion/dig/dig_phases.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 #include "firmware/excavator/motion/program/executor.hpp"
 
 namespace graben {
 namespace {
-
-constexpr double kLiftNear_m = 0.10;
-constexpr double kLiftHeld_s = 0.5;
-constexpr double kEndWait_s = 0.6;
-/// Of the force that a cut may take, on a bucket that is folded.
-constexpr double kHeelMost = 1.5;
 
 /// Nothing stands before a bucket at its line's end: the step that lifts it takes it out.
 bool lifts_next(const DigCycle& cycle, const TaskState& state) {
@@ -40,7 +35,7 @@ bool LiftPhase::go_on(const DigCycle& cycle, TaskState& state) {
   const double bears = seen.force_known && run.folds
                            ? seen.force_n.norm() / (kHeelMost * cycle.plan().force_n)
                            : 0.0;
-  run.held_s = heaviness(bears, seen) > 1.0 ? run.held_s + cycle.period_s : 0.0;
+  run.held_s = heaviness(cycle.plan(), bears, seen) > 1.0 ? run.held_s + cycle.period_s : 0.0;
   if (run.held_s > kLiftHeld_s) {
     run.lift = free_line(cycle.profile, cycle.kinematics, cycle.plan(), seen.teeth, run.entered);
     run.folds = true;
@@ -64,7 +59,7 @@ void LiftPhase::leave(const DigCycle& cycle, TaskState& state) {
     enter_phase(CutPhase::kLifts, cycle, state.step, state);
   } else {
     state.dug.cuts.loaded_m3 = 0.0;
-    enter_step(cycle, cycle.after(state.step), state);
+    enter_step(cycle, state.dug.loaded ? cycle.after(state.step) : cycle.before_cut(), state);
   }
 }
 

@@ -2,16 +2,10 @@
 #include "firmware/excavator/motion/dig/dig_phases.hpp"
 #include "firmware/excavator/motion/dig/dig_touch.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// A platform that swings about its place is waited for before it digs.
-constexpr double kCutWaits_s = 10.0;
-/// Of a move that leads to the next one.
-constexpr double kPassed_m = 0.20;
-/// Of ground as it mostly is.
-constexpr double kGround_kgpm3 = 1750.0;
 
 /// Which cut comes next, by what the last one has brought. False: there is none.
 bool choose_cut(const DigCycle& cycle, TaskState& state) {
@@ -77,11 +71,14 @@ bool MovePhase::go_on(const DigCycle& cycle, TaskState& state) {
   state.settle_s += cycle.period_s;
   const bool digs_next = cycle.after(state.step) == cycle.plan().step;
   state.calm_s = seen.behind_m < kMoveSettled_m ? state.calm_s + cycle.period_s : 0.0;
-  const bool arrived = digs_next ? state.calm_s >= kCalm_s : seen.behind_m < kPassed_m;
+  const bool arrived =
+      digs_next ? state.calm_s >= kCalm_s : seen.behind_m < kPassed_share * cycle.plan().bucket_m;
   return arrived || state.settle_s >= (digs_next ? kCutWaits_s : kSettleMost_s);
 }
 
 void MovePhase::leave(const DigCycle& cycle, TaskState& state) {
+  const StepKind kind = cycle.program.step[static_cast<unsigned>(state.step)].kind;
+  state.dug.loaded = state.dug.loaded && kind != StepKind::kDump;
   enter_step(cycle, cycle.after(state.step), state);
 }
 

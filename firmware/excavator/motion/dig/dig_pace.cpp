@@ -5,16 +5,10 @@
 
 #include "firmware/excavator/motion/dig/layer_height.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// A plan slows down so much faster than it gets on again.
-constexpr double kSlowsFaster = 4.0;
-/// Teeth that sink under a last cut count so much more than teeth that are late.
-constexpr double kSinks = 2.5;
-/// Of their height over the design, that teeth may be behind.
-constexpr double kOffOfHeight = 0.15;
 
 double behind_m(const DigCycle& cycle, const TaskState& state) {
   const double behind_m = cycle.seen.behind_m;

@@ -23,9 +23,6 @@ struct MovePhase {
   static void leave(const DigCycle& cycle, TaskState& state);
 };
 
-/// The empty bucket is raised and the arm reached out once, before it first goes back: friction
-/// that way is only told from a load by the same motion without one.
-inline constexpr double kTaresMost_s = 4.0;  ///< A slower part is ended: it has told what it can.
 struct TarePhase {
   static constexpr CutPhase kPhase = CutPhase::kTares;
   static void enter(const DigCycle& cycle, int step, TaskState& state);

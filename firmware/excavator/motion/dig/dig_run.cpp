@@ -86,6 +86,8 @@ void dig_advance(const ExcavatorProfile& profile, const SwingKinematics& kinemat
       state.phase = state.dug.cuts.met ? TaskPhase::kDone : TaskPhase::kSteps;
     }
   } else if (state.phase == TaskPhase::kSteps) {
+    state.dug.step = state.step;
+    state.dug.teeth_m = seen.teeth.position_m;
     follow_pace(cycle, state);
     const CutPhase phase = state.dig.phase;
     if (Phases::go_on(phase, cycle, state)) {

@@ -12,6 +12,13 @@ void dig_advance(const ExcavatorProfile& profile, const SwingKinematics& kinemat
                  const TaskProgram& program, double advance_s, double period_s, const CutSeen& seen,
                  TaskState& state);
 
+/// A dig that was paused goes on at once where that is safe, from where the machine stands: out of
+/// the ground, then to where the bucket is emptied; a loaded bucket in the air, to the end of its
+/// step. False: it comes back by an approach, with an empty bucket.
+[[nodiscard]] bool dig_resume(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                              const TaskProgram& program, const DriveVector& drives_now,
+                              const CutSeen& seen, TaskState& state);
+
 /// How fast a plan in layers goes on while the teeth are behind it: `state.pace_ratio` a cycle on.
 /// The sooner the nearer they are to the design: half at one slow_error, a fifth at two.
 void follow_pace(const DigCycle& cycle, TaskState& state);

@@ -27,6 +27,9 @@ struct Dug {
   CutState cuts;
   bool touched = false;  ///< The ground has been looked for,
   double zero_m = 0.0;   ///< and heights as the sensors see them are too high by so much.
+  bool loaded = false;   ///< The bucket has cut, and has not been emptied since.
+  int step = 0;          ///< That runs, or ran last,
+  Eigen::Vector3d teeth_m = Eigen::Vector3d::Zero();  ///< and where the teeth were then.
 };
 
 /// Of the moves of a bucket that has been emptied, see dig_tare.cpp.
@@ -47,7 +50,6 @@ struct DigRun {
   double height_mps = 0.0;  ///< By the plan's time.
   double give_m = 0.0;      ///< Of that, for what was too heavy.
   double seen_share = 0.0;  ///< That the edge has passed.
-  double filled_m3 = 0.0;   ///< Of the ground, in this cut.
   double cut_s = 0.0;       ///< Of this cut, once the bucket is at its attitude,
   double heavy_s = 0.0;     ///< and the sum of how heavy it was in it; 1: as heavy as it may be.
   double held_s = 0.0;      ///< How long it does not get on.

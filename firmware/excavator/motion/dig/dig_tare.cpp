@@ -2,19 +2,14 @@
 #include <algorithm>
 
 #include "firmware/excavator/motion/dig/dig_phases.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 
 namespace graben {
 namespace {
 
-/// Of a drive's stroke, and of what is left of it.
-constexpr double kMoves = 0.12;
-constexpr double kMovesOfLeft = 0.5;
-/// Of a move that leads to the next one.
-constexpr double kPassed_m = 0.20;
-
 double way_out_m(const ExcavatorProfile& profile, int axis, const DriveVector& from) {
   const double stroke_m = profile.geometry.cylinder[static_cast<unsigned>(axis)].stroke_m;
-  return std::min(kMoves * stroke_m, kMovesOfLeft * std::max(0.0, stroke_m - from[axis]));
+  return std::min(kTareMoves * stroke_m, kTareMovesOfLeft * std::max(0.0, stroke_m - from[axis]));
 }
 
 /// The boom up and the arm in; then the arm out again.
@@ -25,7 +20,7 @@ DriveVector tared(const ExcavatorProfile& profile, TarePart part, const DriveVec
     to[kArm] += way_out_m(profile, kArm, from);
   } else {
     const double stroke_m = profile.geometry.cylinder[kArm].stroke_m;
-    to[kArm] -= std::min(kMoves * stroke_m, std::max(0.0, from[kArm]));
+    to[kArm] -= std::min(kTareMoves * stroke_m, std::max(0.0, from[kArm]));
   }
   return to;
 }
@@ -54,7 +49,8 @@ bool TarePhase::go_on(const DigCycle& cycle, TaskState& state) {
   }
   state.time_s = end_s;
   state.settle_s += cycle.period_s;
-  return cycle.seen.behind_m < kPassed_m || state.settle_s >= kSettleMost_s;
+  return cycle.seen.behind_m < kPassed_share * cycle.plan().bucket_m ||
+         state.settle_s >= kSettleMost_s;
 }
 
 void TarePhase::leave(const DigCycle& cycle, TaskState& state) {

@@ -6,38 +6,18 @@
 
 #include "firmware/excavator/motion/dig/dig_phases.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 
 namespace graben {
 namespace {
 
-/// Over the ground, from where it comes down and to where it goes up again: from there the bucket
-/// can be turned as a cut begins.
-constexpr double kOverGround_m = 0.9;
-/// From here on it comes down slowly, and knows what it weighs in the air.
-constexpr double kSlowFrom_m = 0.07;
-constexpr double kWeighed_m = 0.045;
-/// The ground is not looked for deeper, by the teeth and by a plan that they are late behind; and
-/// not taken for what the task means beyond kZeroMost_m.
-constexpr double kDeepest_m = 0.07;
-constexpr double kPlanDeepest_m = 0.14;
-constexpr double kZeroMost_m = 0.065;
-constexpr double kFalls_mps = 0.8;
-constexpr double kSlow_mps = 0.04;
-constexpr double kRises_mps = 0.8;
-constexpr double kChange_mps2 = 1.0;
-constexpr double kWeighs_s = 0.15;
-/// One reading's noise is not weight.
-constexpr double kHeard_s = 0.2;
-/// The ground bears this much of the force that a cut gives way to; or it holds the teeth so far
-/// above their plan, which late teeth in the air are too: then it bears something as well.
-constexpr double kBears = 0.12;
-constexpr double kHeldUp_m = 0.015;
-constexpr double kBearsHeld = 0.05;
+double over_ground_m(const LayerPlan& plan) { return kTouchOver_share * plan.bucket_m; }
 
-bool reaches(const SwingKinematics& kinematics, TeethPose pose, double ground_z_m) {
+bool reaches(const SwingKinematics& kinematics, TeethPose pose, const LayerPlan& plan) {
+  const double over_m = over_ground_m(plan);
   bool reached = true;
-  for (const double height_m : {kOverGround_m, 0.5 * kOverGround_m, 0.0, -kPlanDeepest_m}) {
-    pose.position_m.z() = ground_z_m + height_m;
+  for (const double height_m : {over_m, 0.5 * over_m, 0.0, -kTouchPlanDeepest_m}) {
+    pose.position_m.z() = plan.ground_z_m + height_m;
     reached = reached && kinematics.drive_from_teeth(pose).blind.kind == BlindKind::kNone;
   }
   return reached;
@@ -52,7 +32,7 @@ TeethPose flat_pose(const SwingKinematics& kinematics, const TaskProgram& progra
 
 /// Towards a speed, with bounded acceleration.
 void change_speed(double wanted_mps, double period_s, DigRun& run) {
-  const double by_mps = kChange_mps2 * period_s;
+  const double by_mps = kTouchChange_mps2 * period_s;
   run.height_mps = std::clamp(wanted_mps, run.height_mps - by_mps, run.height_mps + by_mps);
 }
 
@@ -64,7 +44,7 @@ double touch_share(const ExcavatorProfile& profile, const SwingKinematics& kinem
     return -1.0;
   }
   for (const double share : {0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95}) {
-    if (reaches(kinematics, flat_pose(kinematics, program, 0, share), program.layers.ground_z_m)) {
+    if (reaches(kinematics, flat_pose(kinematics, program, 0, share), program.layers)) {
       return share;
     }
   }
@@ -80,12 +60,12 @@ TeethPose touch_pose(const SwingKinematics& kinematics, const TaskProgram& progr
 
 TeethPose first_touch_pose(const SwingKinematics& kinematics, const TaskProgram& program,
                            int strip) {
-  return touch_pose(kinematics, program, strip, kOverGround_m);
+  return touch_pose(kinematics, program, strip, over_ground_m(program.layers));
 }
 
-void TouchPhase::enter(const DigCycle& /*cycle*/, int /*step*/, TaskState& state) {
+void TouchPhase::enter(const DigCycle& cycle, int /*step*/, TaskState& state) {
   DigRun& run = state.dig;
-  run.height_m = kOverGround_m;
+  run.height_m = over_ground_m(cycle.plan());
   run.height_mps = 0.0;
   run.give_m = 0.0;
   run.air_n = 0.0;
@@ -97,28 +77,30 @@ bool TouchPhase::go_on(const DigCycle& cycle, TaskState& state) {
   const CutSeen& seen = cycle.seen;
   const double seen_m = seen.teeth.position_m.z() - cycle.plan().ground_z_m;
   if (state.dug.touched) {
-    const double left_m = std::max(0.0, kOverGround_m - run.height_m);
-    change_speed(std::min(kRises_mps, std::sqrt(2.0 * kChange_mps2 * left_m)), cycle.period_s, run);
+    const double over_m = over_ground_m(cycle.plan());
+    const double left_m = std::max(0.0, over_m - run.height_m);
+    change_speed(std::min(kTouchRises_mps, std::sqrt(2.0 * kTouchChange_mps2 * left_m)),
+                 cycle.period_s, run);
     run.height_m += std::max(0.0, run.height_mps) * cycle.advance_s;
-    return run.height_m > kOverGround_m - 0.01;
+    return run.height_m > over_m - 0.01;
   }
-  const double over_m = std::max(0.0, run.height_m - kSlowFrom_m);
-  change_speed(
-      -std::min(kFalls_mps, std::sqrt(kSlow_mps * kSlow_mps + 2.0 * kChange_mps2 * over_m)),
-      cycle.period_s, run);
+  const double over_m = std::max(0.0, run.height_m - kTouchSlowFrom_m);
+  change_speed(-std::min(kTouchFalls_mps, std::sqrt(kTouchSlow_mps * kTouchSlow_mps +
+                                                    2.0 * kTouchChange_mps2 * over_m)),
+               cycle.period_s, run);
   run.height_m += state.pace_ratio * run.height_mps * cycle.advance_s;
   const double up_n = seen.force_known ? seen.force_n.y() : 0.0;
-  if (seen_m > kWeighed_m) {
-    run.air_n += std::min(1.0, cycle.period_s / kWeighs_s) * (up_n - run.air_n);
+  if (seen_m > kTouchWeighed_m) {
+    run.air_n += std::min(1.0, cycle.period_s / kTouchWeighs_s) * (up_n - run.air_n);
   }
-  const bool is_near = run.height_m < kSlowFrom_m;
-  run.up_n += std::min(1.0, cycle.period_s / kHeard_s) * (up_n - run.up_n);
+  const bool is_near = run.height_m < kTouchSlowFrom_m;
+  run.up_n += std::min(1.0, cycle.period_s / kTouchHeard_s) * (up_n - run.up_n);
   const double force_n = cycle.plan().force_n;
-  const bool bears = is_near && seen.force_known && up_n - run.air_n > kBears * force_n;
-  const bool held = is_near && seen_m - run.height_m > kHeldUp_m && seen.lambda > 0.0 &&
-                    (!seen.force_known || run.up_n - run.air_n > kBearsHeld * force_n);
+  const bool bears = is_near && seen.force_known && up_n - run.air_n > kTouchBears * force_n;
+  const bool held = is_near && seen_m - run.height_m > kTouchHeldUp_m && seen.lambda > 0.0 &&
+                    (!seen.force_known || run.up_n - run.air_n > kTouchBearsHeld * force_n);
   const bool found = bears || held;
-  if (found || seen_m < -kDeepest_m || run.height_m < -kPlanDeepest_m) {
+  if (found || seen_m < -kTouchDeepest_m || run.height_m < -kTouchPlanDeepest_m) {
     state.dug.touched = true;
     state.dug.zero_m =
         found && std::abs(seen_m) <= kZeroMost_m ? seen_m * cycle.plan().up.z() : 0.0;

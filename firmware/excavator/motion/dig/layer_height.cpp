@@ -5,17 +5,10 @@
 #include <cmath>
 
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 
 namespace graben {
 namespace {
-
-constexpr double kRisesAtLeast = 0.25;
-/// A wall's foot is left standing beyond the line, in a hollow that rises so much a metre squared:
-/// up to where sand stands by itself. No soil slides on it.
-constexpr double kFoot_pm = 1.25;
-/// So much higher the edge comes from it, until it has gone so far along the line.
-constexpr double kFootHigher_m = 0.012;
-constexpr double kOffFoot = 0.06;
 
 /// Speed towards a height that comes to rest there.
 double speed_towards(double from_m, double to_m, double speed_mps, double most_down_mps,
@@ -46,7 +39,7 @@ double wanted_height_m(const TaskProgram& program, const TaskState& state) {
   // And where it ends, a heel that has stood on it comes down.
   const double on_foot = cut.from_share < 0.0 ? std::clamp(1.0 - share / kOffFoot, 0.0, 1.0) : 0.0;
   return cut.height_m + std::max(kSteepHigher_m * steep, kFootHigher_m * on_foot) +
-         kFoot_pm * beyond_m * beyond_m;
+         kFoot / program.layers.bucket_m * beyond_m * beyond_m;
 }
 
 void rise(const DigCycle& cycle, double target_m, double most_down_mps, TaskState& state) {

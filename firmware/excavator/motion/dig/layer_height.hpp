@@ -6,10 +6,6 @@
 
 namespace graben {
 
-/// A heavy cut gives way upwards so fast.
-inline constexpr double kGives_mps = 0.15;
-inline constexpr double kHeightChange_mps2 = 1.0;
-
 /// Of the teeth over the strip's line, counted from the ground where that has been felt for.
 [[nodiscard]] double seen_height_m(const TaskProgram& program, const CutSeen& seen,
                                    const TaskState& state);

@@ -6,26 +6,17 @@
 
 #include "firmware/excavator/motion/dig/dig_touch.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 
 namespace graben {
 namespace {
 
-/// Of what the cylinders can hold against: the rest is for speed, friction and the links' weight.
-constexpr double kUsed = 0.45;
-/// Deeper cuts are not made, whatever the force.
-constexpr double kDepthMost_m = 0.35;
-constexpr double kCarry_rad = 0.15;
-/// Of the floor: on that way its heel stays where the edge went in.
-constexpr double kTurns = 1.4;
-/// Of the bucket's floor as it goes straight down into the ground.
-constexpr double kSteep_rad = 1.5;
+/// Attitudes that are tried, from the steepest on. [-; size: of this loop]
 constexpr int kSteepLooks = 16;
-/// Of teeth whose oil nobody knows.
-constexpr double kGiveUnknown_mpn = 1e-6;
+/// Places of a line that are looked at. [-; size: of this loop]
 constexpr int kLineLooks = 8;
+/// Heights over each that are looked at. [-; size: of this loop]
 constexpr int kHeights = 4;
-/// Over the ground, as a cut comes down.
-constexpr double kOver_m = 0.3;
 
 /// What the teeth spring along `up` by a force along `way`, through the oil of boom and arm.
 double give_mpn(const ExcavatorProfile& profile, const KinematicState& at,
@@ -55,7 +46,8 @@ BlindPlace first_unreached(const ExcavatorProfile& profile, const SwingKinematic
   const LayerPlan& plan = program.layers;
   for (int look = 0; look <= kLineLooks; ++look) {
     const double share = static_cast<double>(look) / kLineLooks;
-    const double highest_m = std::max(0.0, ground_m(plan, share)) + kOver_m;
+    const double highest_m =
+        std::max(0.0, ground_m(plan, share)) + kPlannedOver_share * plan.bucket_m;
     for (int n = 0; n <= kHeights; ++n) {
       const TeethPose pose = line_over(program, 0, highest_m * n / kHeights).at(share);
       const DriveResult drives = kinematics.drive_from_teeth(pose);
@@ -78,7 +70,7 @@ double enter_rad(const ExcavatorProfile& profile, const SwingKinematics& kinemat
   TeethPose pose = line_over(program, 0, 0.0).at(0.0);
   const double flat_rad = pose.attitude_rad;
   const double steep_rad = profile.geometry.body.floor_rad + kSteep_rad;
-  const double highest_m = std::max(0.0, ground_m(plan, 0.0)) + kOver_m;
+  const double highest_m = std::max(0.0, ground_m(plan, 0.0)) + kPlannedOver_share * plan.bucket_m;
   const Eigen::Vector3d foot_m = pose.position_m;
   for (int n = 0; n < kSteepLooks; ++n) {
     pose.attitude_rad = steep_rad + n * (flat_rad - steep_rad) / kSteepLooks;
@@ -130,11 +122,12 @@ LayerPlanResult plan_layers(const ExcavatorProfile& profile, const SwingKinemati
   plan.ground_z_m = asked.ground_m;
   plan.way_m = line.line.change.position_m.norm();
   plan.width_m = body.bucket_width_m;
+  plan.bucket_m = profile.geometry.bucket_length_m;
   plan.full_m3 = body.capacity_m3 / kSwell;
-  plan.depth_most_m = kDepthMost_m;
+  plan.depth_most_m = kDepthMost_share * plan.bucket_m;
   plan.speed_mps = line.way_m * line.ramp.peak_rate_ps();
   plan.carry_rad = kCarry_rad;
-  plan.turns_m = kTurns * body.floor_m;
+  plan.turns_m = kTurnsWay * body.floor_m;
   plan.strips = asked.strips;
   plan.strip_rad = asked.strip_rad;
   plan.first_rad = -0.5 * (asked.strips - 1) * asked.strip_rad;
@@ -148,7 +141,7 @@ LayerPlanResult plan_layers(const ExcavatorProfile& profile, const SwingKinemati
         kinematics.drive_from_teeth(way.at(static_cast<double>(look) / kLineLooks));
     const KinematicState at = kinematics.planar().state(drives.value.head<kAxisCount>());
     if (at.status == ReachStatus::kOk) {
-      plan.force_n = std::min(plan.force_n, kUsed * holding_force_n(profile, at, inwards));
+      plan.force_n = std::min(plan.force_n, kForceUsed * holding_force_n(profile, at, inwards));
       plan.give_mpn = std::max(plan.give_mpn, give_mpn(profile, at, inwards, up));
       const Eigen::Vector2d down = -Eigen::Vector2d::UnitY();
       plan.give_down_mpn = std::max(plan.give_down_mpn, give_mpn(profile, at, down, down));

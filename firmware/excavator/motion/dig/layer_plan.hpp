@@ -7,9 +7,6 @@
 
 namespace graben {
 
-/// Soil takes so much more room once it is loose; sand 1.1, clay 1.3.
-inline constexpr double kSwell = 1.2;
-
 /// Of step 0 of the program, whose line is planned. `place` is where the machine can't be, or has
 /// BlindKind::kNone.
 struct LayerPlanResult {

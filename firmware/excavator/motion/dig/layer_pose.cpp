@@ -5,30 +5,13 @@
 #include <cmath>
 
 #include "firmware/excavator/motion/dig/dig_touch.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 
 namespace graben {
 namespace {
 
-constexpr double kTurn_radps = 0.5;
-/// The last share of that way, on which it comes to rest.
-constexpr double kFades = 0.3;
-constexpr double kTurnsMean = 1.0 - 0.5 * kFades;
-constexpr double kFinish_mps = 0.4;
-constexpr double kLiftSpeed_mps = 0.9;
-constexpr double kLiftShare = 4.0;  ///< Of the acceleration of lines.
-/// Folded in so far and lifted by so much the bucket holds what it has; or less far, where its heel
-/// would come down on the design that it stands over.
-constexpr double kFolded_rad = 0.4;
-constexpr double kHeelFree_rad = 0.25;
-constexpr double kFoldUp_m = 0.16;
-constexpr double kLiftLeast_m = 0.4;
-constexpr double kOutOfGround_m = 0.4;
-/// So near to where they went into the ground teeth are in the slot that they have made.
-constexpr double kSlot_m = 0.3;
-/// Where walls fall in, the one at the line's beginning is cut back by so much at most, with a
-/// bucket that stands so steep at least.
-constexpr std::array<double, 4> kBeyond_m = {0.5, 0.35, 0.2, 0.1};
-constexpr double kSteepBeyond = 0.75;
+/// Mean speed of the turn on its way, of its most. [-; derived: kTurnFades]
+constexpr double kTurnsMean = 1.0 - 0.5 * kTurnFades;
 
 const LinePlan& line_of(const TaskProgram& program) {
   return program.step[static_cast<unsigned>(program.layers.step)].line;
@@ -43,7 +26,7 @@ bool is_reached(const SwingKinematics& kinematics, const TeethPose& pose) {
 }
 
 bool is_reached(const SwingKinematics& kinematics, const TeethLine& line) {
-  constexpr int kLooks = 4;
+  constexpr int kLooks = 4;  ///< Poses that a line is looked at in. [-; size: of this loop]
   bool reached = true;
   for (int n = 1; n <= kLooks; ++n) {
     reached = reached && is_reached(kinematics, line.at(static_cast<double>(n) / kLooks));
@@ -131,11 +114,12 @@ Progress steepness(const TaskProgram& program, const Cut& cut, double share) {
   const double turns = program.layers.turns_m / program.layers.way_m;
   const double done = std::clamp((share - cut.from_share) / turns, 0.0, 1.0);
   const double left = 1.0 - done;
-  if (left > kFades) {
+  if (left > kTurnFades) {
     return {1.0 - done / kTurnsMean, -1.0 / (kTurnsMean * turns), 0.0};
   }
   // A jump of the bucket's speed would be a dip of the edge.
-  return {left * left / (2.0 * kFades * kTurnsMean), -left / (kFades * kTurnsMean * turns), 0.0};
+  return {left * left / (2.0 * kTurnFades * kTurnsMean), -left / (kTurnFades * kTurnsMean * turns),
+          0.0};
 }
 
 bool turns(const TaskProgram& program, const TaskState& state) {
@@ -152,8 +136,8 @@ double most_rate_ps(const TaskProgram& program, const TaskState& state) {
   }
   const double steep = std::abs(steep_rad(program, cut));
   const double turn_rad = steep * std::abs(steepness(program, cut, state.dig.share).rate_ps);
-  if (turn_rad * most_mps > kTurn_radps * plan.way_m) {
-    most_mps = kTurn_radps * plan.way_m / turn_rad;
+  if (turn_rad * most_mps > kCutTurn_radps * plan.way_m) {
+    most_mps = kCutTurn_radps * plan.way_m / turn_rad;
   }
   return most_mps / plan.way_m;
 }
@@ -181,20 +165,19 @@ TeethLine cut_line(const TaskProgram& program, const TaskState& state) {
 
 LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
                    const LayerPlan& plan, const TeethPose& from, LiftPart part) {
-  const double out_m = plan.ground_z_m + kOutOfGround_m - from.position_m.z();
+  const double out_m = plan.ground_z_m + kOutOfGround_share * plan.bucket_m - from.position_m.z();
   const bool folds = part == LiftPart::kFolds;
-  const double up_m = folds ? kFoldUp_m : std::max(kLiftLeast_m, out_m);
+  const double up_m =
+      folds ? kFoldUp_share * plan.bucket_m : std::max(kLiftLeast_share * plan.bucket_m, out_m);
   const double heel_free_rad =
       profile.geometry.body.floor_rad + incline_rad(plan, from) - kHeelFree_rad;
   const double to_rad = part == LiftPart::kFrees ? from.attitude_rad
                         : folds ? std::max({kFolded_rad, heel_free_rad, plan.carry_rad})
                                 : plan.carry_rad;
   const double turn_rad = to_rad - from.attitude_rad;
-  constexpr std::array<double, 4> kTurns = {1.0, 0.6, 0.3, 0.0};
-  constexpr std::array<double, 3> kUps = {1.0, 0.7, 0.4};
   LinePlan lift;
-  for (const double up : kUps) {
-    for (const double turn : kTurns) {
+  for (const double up : kLiftUps) {
+    for (const double turn : kLiftTurns) {
       TeethPose to = from;
       to.position_m.z() += up * up_m;
       to.attitude_rad += turn * std::min(0.0, turn_rad);
@@ -215,10 +198,10 @@ LinePlan free_line(const ExcavatorProfile& profile, const SwingKinematics& kinem
                    const LayerPlan& plan, const TeethPose& from, const TeethPose& entered) {
   const Eigen::Vector3d off_m = entered.position_m - from.position_m;
   TeethPose to = entered;
-  to.position_m.z() = from.position_m.z() + kLiftLeast_m;
+  to.position_m.z() = from.position_m.z() + kLiftLeast_share * plan.bucket_m;
   LinePlan lift;
   lift.line = line_between(kinematics, from, to);
-  if (off_m.head<2>().norm() > kSlot_m || !is_reached(kinematics, lift.line)) {
+  if (off_m.head<2>().norm() > kSlot_share * plan.bucket_m || !is_reached(kinematics, lift.line)) {
     return lift_line(profile, kinematics, plan, from, LiftPart::kFrees);
   }
   lift.way_m = way_m(kinematics, lift.line);
@@ -245,9 +228,9 @@ void begin_beyond(const SwingKinematics& kinematics, const TaskProgram& program,
   if (program.fences.count > 1) {
     return;
   }
-  for (const double beyond_m : kBeyond_m) {
+  for (const double beyond : kBeyond_shares) {
     Cut farther = cut;
-    farther.from_share = -beyond_m / program.layers.way_m;
+    farther.from_share = -beyond * program.layers.bucket_m / program.layers.way_m;
     farther.steep = steepest(kinematics, program, farther);
     if (farther.steep >= kSteepBeyond) {
       cut = farther;

@@ -4,19 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/motion/dig/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {
 namespace {
 
-/// Less than this towards the design in each round is none.
-constexpr double kLeastDeeper_m = 1e-3;
-/// Poses between which a line that is planned on the way is looked at.
+/// Poses that a line planned on the way is looked at in. [-; size: of this loop]
 constexpr int kLooks = 4;
-/// Of a move in the place of a line.
-constexpr double kMovePace = 0.5;
-constexpr double kLeastWay_m = 1e-6;
-/// On the line of a step that may end early.
+/// Places of a step that may end early. [-; size: of this loop]
 constexpr int kEarlyPlaces = 8;
 
 TeethPose teeth_of(const SwingKinematics& kinematics, const DriveVector& drives) {
@@ -214,7 +210,7 @@ TaskStep step_from(const ExcavatorProfile& profile, const SwingKinematics& kinem
       return result;
     }
     result.straight = false;
-    result.pace_ratio = kMovePace;
+    result.pace_ratio = kRoundMovePace;
   }
   const DriveVector ends = step.straight ? kinematics.drive_from_teeth(to).value
                                          : DriveVector(step.drives.from + step.drives.change);

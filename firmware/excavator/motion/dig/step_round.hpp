@@ -7,7 +7,7 @@
 
 namespace graben {
 
-/// More rounds are none that anybody has looked at.
+/// Most rounds of a program. [-; size: rounds that planning walks]
 inline constexpr int kRoundsMost = 50;
 
 /// Where a round has what a dig begins or ends with: `offset_m` farther with each round from 0 on,

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/motion/dig/layer_plan.hpp"
 #include "firmware/excavator/motion/dig/step_round.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 
 namespace graben {
 namespace {

@@ -165,6 +165,12 @@ void next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematic
     memory.state.settle_s = 0.0;
     memory.state.calm_s = 0.0;
   }
+  // While an approach is looked for the machine stands: it can't begin to resume.
+  if (!memory.runs && memory.number == number && !memory.search.runs &&
+      resume(profile, kinematics, program, drives_of(profile, travel_m), seen, memory.state)) {
+    memory.runs = true;
+    return;
+  }
   if (!memory.runs || memory.number != number) {
     memory.state.waits = false;
     memory.state.word = false;

@@ -224,7 +224,12 @@ bool Planning::plan_move(const StepRequest& asked, TaskStep& step, int number) {
     step.drives = {drives_, DriveVector::Zero(), kWaitRamp};
     return true;
   }
-  const DriveResult to = kinematics_.drive_from_teeth(pose(number + 1));
+  DriveResult to = kinematics_.drive_from_teeth(pose(number + 1));
+  if (result_.program.leads_on && number + 1 == request_.step_count) {
+    // Back to over the first cut: down to its line only the cut leads.
+    to.value = result_.program.start;
+    to.blind = {};
+  }
   if (to.blind.kind != BlindKind::kNone) {
     return refuse(ProgramRefusal::kBlindSpot, number, {to.blind, 1.0, pose(number + 1)});
   }
