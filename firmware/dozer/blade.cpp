@@ -5,15 +5,11 @@
 #include <cmath>
 
 #include "firmware/dozer/tilt.hpp"
+#include "firmware/dozer/tuning.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
-
-/// Of the stroke, against what the oil does; 50 to 80 mm of the cutting edge. No pressure tells a
-/// blade that the ground holds from a sensor that does not see it move.
-constexpr double kUnseen_m = 0.015;
-constexpr double kOff_m = 0.015;
 
 double direction_rad(const Eigen::Vector2d& vector) { return std::atan2(vector.y(), vector.x()); }
 
@@ -39,7 +35,7 @@ void fill_row(const DozerProfile& profile, const ImplementDrive& drive, DriveRow
   row.control.spool_rate_ps = control.spool_rate_ps;
   row.control.duty_rate_ps = control.duty_rate_ps;
   row.control.spool_threshold = control.spool_threshold;
-  row.control.stroke_end_gain_ps = kEndGain_ps;
+  row.control.stroke_end_gain_ps = kBladeEndGain_ps;
   row.watch.fastest_mps = kFasterThanPumps * drive.valve_flow_max_m3ps / drive.rod_area_m2;
   row.watch.senses_load = false;
   row.watch.settle_s = profile.safety.settle_s;
@@ -48,8 +44,8 @@ void fill_row(const DozerProfile& profile, const ImplementDrive& drive, DriveRow
   row.watch.rest_s = rest_s(row);
   row.watch.uncommanded_m = profile.safety.uncommanded_m;
   row.watch.stuck_m = profile.safety.stuck_m;
-  row.watch.unseen_m = kUnseen_m;
-  row.watch.off_m = kOff_m;
+  row.watch.unseen_m = kBladeUnseen_m;
+  row.watch.off_m = kBladeOff_m;
 }
 
 }  // namespace

@@ -54,13 +54,14 @@ class BladeKinematics {
   double stroke_max_m_;
 };
 
-/// Largest speed towards an end of the stroke, per metre left.
-inline constexpr double kEndGain_ps = 4.0;
+// The dozer's drives: the blade's lift, and where it has one its tilt. Their pressures are not
+// measured; a spool's travel is the share of its valve's largest flow.
 
-/// The dozer's drives: the blade's lift, and where it has one its tilt. Their pressures are not
-/// measured; a spool's travel is the share of its valve's largest flow.
+/// Drives of a blade, at most. [-; size: rows of DozerBank, for lift and tilt]
 inline constexpr int kBladeCount = 2;
+/// Row of the lift in DozerBank. [-; derived: the first of kBladeCount]
 inline constexpr unsigned kBladeLift = 0;
+/// Row of the tilt in DozerBank. [-; derived: the one after kBladeLift]
 inline constexpr unsigned kBladeTilt = 1;
 using DozerBank = DriveBank<kBladeCount>;
 [[nodiscard]] DozerBank dozer_bank(const DozerProfile& profile);

@@ -5,15 +5,11 @@
 #include <cmath>
 
 #include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/tuning.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 
 namespace graben {
 namespace {
-
-/// Down to the design from above, of the way; and of the tolerance, from where on it is in a hurry.
-/// Both tried out on all soils: twice as steep, the edge still rides.
-constexpr double kSinkSlope = 0.1;
-constexpr double kNoHurry = 0.5;
 
 Eigen::Vector3d normal_of(const GradeSample& design) {
   return Eigen::Vector3d(-design.slope, 0.0, 1.0).normalized();
@@ -34,8 +30,8 @@ double lifting_mps(const BladeSituation& at) {
 
 /// The feedback's most downwards, with the edge so far above where it is to be.
 double sink_most_mps(const DozerProfile& profile, double speed_mps, double above_m) {
-  const double hurry_m = std::max(0.0, above_m - kNoHurry * profile.grade.tolerance_m);
-  return kSinkSlope * std::max(0.0, speed_mps) + profile.control.blade_gain_ps * hurry_m;
+  const double hurry_m = std::max(0.0, above_m - kBladeNoHurry * profile.grade.tolerance_m);
+  return kBladeSinkSlope * std::max(0.0, speed_mps) + profile.control.blade_gain_ps * hurry_m;
 }
 
 double error_of(const BladeKinematics& blade, const GradeProfile& design, const BladeSituation& at,

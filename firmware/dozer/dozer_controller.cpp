@@ -7,13 +7,11 @@
 #include "firmware/dozer/blade.hpp"
 #include "firmware/dozer/travel/body_roll.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
+#include "firmware/dozer/tuning.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 
 namespace graben {
 namespace {
-
-/// From a lower wanted speed to a slower machine: displacements, drive line, PI.
-constexpr double kTravelLead_s = 0.24;
 
 /// A track's speed. Where one of them is not that of its displacements, none is believed, and one
 /// that is outvoted never: feedback of a wrong one would drive its track off.

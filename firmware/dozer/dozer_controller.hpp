@@ -16,6 +16,7 @@
 #include "firmware/dozer/travel/preview.hpp"
 #include "firmware/dozer/travel/speed_limit.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
+#include "firmware/dozer/tuning.hpp"
 #include "firmware/drives/drive_servo.hpp"
 #include "firmware/safety/cycle.hpp"
 #include "firmware/safety/stall_watch.hpp"
@@ -142,8 +143,7 @@ class DozerController {
   }
   /// Of the error that the task allows, what the blade may leave standing on purpose: the rest is
   /// for what nobody foresees.
-  [[nodiscard]] double lift_most_m() const { return kLiftShare * profile_.grade.tolerance_m; }
-  static constexpr double kLiftShare = 0.29;
+  [[nodiscard]] double lift_most_m() const { return kGradeLiftShare * profile_.grade.tolerance_m; }
 
   /// The same of the tilt.
   [[nodiscard]] TiltSituation tilt_at(const BladeSituation& at, double stroke_m) const;

@@ -25,6 +25,7 @@ struct DozerBody {
   double suspension_npm = 0.0;        ///< Of each wheel of the half-vehicle.
   double suspension_nspm = 0.0;       ///< Damping; acts on the way in and out while pushed.
 };
+/// Wheels of a half-vehicle, at most. [-; size: bound of every loop over the wheels]
 inline constexpr int kMostWheels = 16;
 
 /// Joint 1. Home is where the cutting edge is at the tracks' ground line; the rod eye lies on the
@@ -124,7 +125,10 @@ struct GradePoint {
 /// points: a surface of triangles, cut by the track. They stay the application's, which keeps them
 /// as long as anything has this design; nothing of them is copied.
 struct GradeHeights {
+  /// Distance between two heights. [m; standard: layout of the heights, which application, plant
+  /// and controller share; six to the rounding of a corner of 0.3 m; other steps not tried]
   static constexpr double kStep_m = 0.05;
+  /// Heights of a design, at most. [-; size: a track of 1000 m at kStep_m, both ends counted]
   static constexpr int kMost = 20'001;
 
   // Aligned so that it lies alike where pointers are of 4 bytes: a setup is written as bytes.
@@ -141,6 +145,7 @@ struct GradeHeights {
 /// after the last one it goes on level with them. Where it has `heights`, they stand in the place
 /// of points and rounding.
 struct GradeDesign {
+  /// Corners of a design that is a list of points, at most. [-; size: room of `point`]
   static constexpr int kMostPoints = 32;
 
   std::array<GradePoint, kMostPoints> point{};

@@ -11,8 +11,11 @@
 
 namespace graben {
 
+/// Tracks of a dozer. [-; size: places of every array that has one value a track]
 inline constexpr int kTrackCount = 2;
+/// Place of the left track in such an array. [-; derived: tracks are in the order left, right]
 inline constexpr unsigned kLeft = 0;
+/// Place of the right track in such an array. [-; derived: tracks are in the order left, right]
 inline constexpr unsigned kRight = 1;
 
 /// One path of the transmission: pump, motor, sprocket.

@@ -3,19 +3,10 @@
 
 #include <algorithm>
 
+#include "firmware/dozer/tuning.hpp"
+
 namespace graben {
 namespace {
-
-/// A pump that gives less is broken, and what moves so slowly is held by something else.
-constexpr double kLeastShare = 0.8;
-constexpr double kLearn_s = 0.1;
-/// Oil is counted over so long, and not before so much of it.
-constexpr double kCounted_s = 0.1;
-constexpr double kWarm_s = 0.05;
-/// Of the flow by the model, from which on a blade is fast.
-constexpr double kFast = 0.8;
-/// What comes of it where the pump gives enough, less what strokes resolve.
-constexpr double kComes = 0.96;
 
 /// What lift and tilt take in with these velocities, or ways.
 double inflow(const DozerProfile& profile, const std::array<double, kBladeCount>& of) {
@@ -23,13 +14,13 @@ double inflow(const DozerProfile& profile, const std::array<double, kBladeCount>
 }
 
 double counted(double last_m3, double now_m3, double period_s) {
-  return (last_m3 + now_m3) * kCounted_s / (kCounted_s + period_s);
+  return (last_m3 + now_m3) * kFlowShareCounted_s / (kFlowShareCounted_s + period_s);
 }
 
 /// Up to what is given; down to it only where the pump lacks it.
 double drawn(double last, double given, double newest, bool lacks) {
   const double moved = last + (given - last) * newest;
-  return std::clamp(lacks ? moved : std::max(last, moved), kLeastShare, 1.0);
+  return std::clamp(lacks ? moved : std::max(last, moved), kFlowShareLeast, 1.0);
 }
 
 }  // namespace
@@ -40,18 +31,18 @@ FlowShareState next_flow_share(const DozerProfile& profile, const FlowShareState
   const double due_m3ps = inflow(profile, now.due_mps);
   FlowShareState state{last.share, 0.0, 0.0, 0.0, now.stroke_m};
   if (now.due_mps[kBladeLift] >= 0.0 || !(modelled_m3ps * period_s > 0.0) ||
-      due_m3ps < kFast * modelled_m3ps) {
+      due_m3ps < kFlowShareFast * modelled_m3ps) {
     return state;
   }
   const double taken_m3 = inflow(profile, {now.stroke_m[kBladeLift] - last.stroke_m[kBladeLift],
                                            now.stroke_m[kBladeTilt] - last.stroke_m[kBladeTilt]});
-  state.fast_s = std::min(last.fast_s + period_s, kCounted_s);
+  state.fast_s = std::min(last.fast_s + period_s, kFlowShareCounted_s);
   state.due_m3 = counted(last.due_m3, due_m3ps * period_s, period_s);
   state.taken_m3 = counted(last.taken_m3, taken_m3, period_s);
-  if (state.fast_s >= kWarm_s && state.due_m3 > 0.0) {
+  if (state.fast_s >= kFlowShareWarm_s && state.due_m3 > 0.0) {
     const double given = due_m3ps / modelled_m3ps * state.taken_m3 / state.due_m3;
-    const double newest = period_s / (kLearn_s + period_s);
-    const bool lacks = state.taken_m3 < kComes * state.due_m3;
+    const double newest = period_s / (kFlowShareLearn_s + period_s);
+    const bool lacks = state.taken_m3 < kFlowShareComes * state.due_m3;
     state.share = drawn(last.share, given, newest, lacks);
   }
   return state;

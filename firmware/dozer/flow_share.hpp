@@ -26,10 +26,10 @@ struct FlowSituation {
 
 /// A cycle on. While the blade is raised with most of what there is, the oil that it takes is
 /// compared with what its valves should let through: where it is clearly less, the pump gives no
-/// more, and Q / Q_model of (11) is followed with a low-pass, within 0.8 and 1. What it has given
-/// it can give. A worn pump gives less than its profile says; where more of it is planned with, the
-/// body tips over a crest faster than the blade can be raised. Downwards the ground may hold it:
-/// nothing is learnt.
+/// more, and Q / Q_model of (11) is followed with a low-pass, within kFlowShareLeast and 1. What it
+/// has given it can give. A worn pump gives less than its profile says; where more of it is planned
+/// with, the body tips over a crest faster than the blade can be raised. Downwards the ground may
+/// hold it: nothing is learnt.
 [[nodiscard]] FlowShareState next_flow_share(const DozerProfile& profile,
                                              const FlowShareState& last, const FlowSituation& now,
                                              double period_s);

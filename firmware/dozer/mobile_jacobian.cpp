@@ -3,11 +3,10 @@
 
 #include <cmath>
 
+#include "firmware/dozer/tuning.hpp"
+
 namespace graben {
 namespace {
-
-/// Less than this of a metre's lever and the joint no longer moves the edge along the normal.
-constexpr double kLeastLever_m = 0.05;
 
 /// [a]x with [a]x b = a x b.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
@@ -57,7 +56,7 @@ double joint_rate_radps(const BladeKinematics& blade, const BodyPose& body, doub
   Vector6d row = Vector6d::Zero();
   row.head<3>() = normal;
   const double lever_m = row.dot(blade_jacobian(blade, body, angle_rad));
-  if (std::abs(lever_m) < kLeastLever_m) {
+  if (std::abs(lever_m) < kBladeLeastLever_m) {
     return 0.0;
   }
   const double carried_mps = row.dot(body_jacobian(blade, body, angle_rad) * body_velocity);

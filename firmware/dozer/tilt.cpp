@@ -5,12 +5,10 @@
 #include <cmath>
 
 #include "firmware/dozer/travel/body_roll.hpp"
+#include "firmware/dozer/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// Less of an edge across the track, and its slope means nothing.
-constexpr double kLeastAcross = 0.1;
 
 double direction_rad(const Eigen::Vector2d& vector) { return std::atan2(vector.y(), vector.x()); }
 
@@ -21,7 +19,7 @@ double within_half_turn(double angle_rad) {
 
 /// How the slope of `direction` changes as it turns with `rate`.
 double slope_rate(const Eigen::Vector3d& direction, const Eigen::Vector3d& rate) {
-  const double across = std::max(direction.y(), kLeastAcross);
+  const double across = std::max(direction.y(), kEdgeLeastAcross);
   return (rate.z() * across - direction.z() * rate.y()) / (across * across);
 }
 
@@ -80,7 +78,7 @@ EdgeSlope edge_slope(const Eigen::Matrix3d& body_rotation, double blade_angle_ra
   const Eigen::Vector3d direction = body_rotation * in_body;
   const Eigen::Vector3d tilted = body_rotation * (blade * Eigen::Vector3d(0.0, -s, c));
   const Eigen::Vector3d rolled = body_rotation * Eigen::Vector3d(0.0, -in_body.z(), in_body.y());
-  return {direction.z() / std::max(direction.y(), kLeastAcross), slope_rate(direction, tilted),
+  return {direction.z() / std::max(direction.y(), kEdgeLeastAcross), slope_rate(direction, tilted),
           slope_rate(direction, rolled)};
 }
 
@@ -89,6 +87,7 @@ CrossSample slope_along_edge(const GradeProfile& design, double x_m, double aske
   if (!design.curves()) {
     return across;
   }
+  /// Step of the design's bend. [m; derived: that of its heights]
   constexpr double kStep_m = GradeHeights::kStep_m;
   const double s = std::sin(askew_rad);
   const double c = std::cos(askew_rad);

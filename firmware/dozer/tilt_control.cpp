@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/tuning.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 
 namespace graben {
 namespace {
-
-/// A blade that hardly turns its edge across the track.
-constexpr double kLeastAnswer = 0.2;
 
 /// At one moment: how far the edge's slope is off, and the cylinder's velocity that changes it by
 /// `wanted_ps` against the design.
@@ -23,7 +21,7 @@ struct Asked {
 Asked asked_at(const GradeProfile& design, const TiltSituation& at) {
   const EdgeSlope edge = edge_slope(at.body_rotation, at.blade_angle_rad, at.tilt_rad);
   const CrossSample wanted = slope_along_edge(design, at.edge_x_m, at.askew_rad);
-  return {edge.slope - wanted.slope, std::max(edge.per_tilt, kLeastAnswer),
+  return {edge.slope - wanted.slope, std::max(edge.per_tilt, kTiltLeastAnswer),
           wanted.change_pm * at.speed_mps -
               design.at(at.edge_x_m).slope * std::cos(at.askew_rad) * at.askew_rate_radps -
               edge.per_roll * at.roll_rate_radps};

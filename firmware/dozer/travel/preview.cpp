@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/tuning.hpp"
 
 namespace graben {
 namespace {
@@ -134,7 +135,7 @@ template <class ReachOf>
 void Preview::cost(int number, const ReachOf& reach_of) {
   const Probe& probe = probe_[static_cast<unsigned>(number)];
   const double time_s = kStep_m / probe_mps(number);
-  const double towards_end = kEndGain_ps * time_s / (1.0 + kEndGain_ps * time_s);
+  const double towards_end = kBladeEndGain_ps * time_s / (1.0 + kBladeEndGain_ps * time_s);
   double stroke_m = 0.0;
   for (int index = probe.end - 1; index >= probe.begin; --index) {
     Need& at = need(number, index);
