@@ -2,6 +2,7 @@
 #pragma once
 /// Checks that a displacement, of a pump or a motor, follows its command.
 
+#include "firmware/dozer/safety/tuning.hpp"
 #include "firmware/drives/spool_watch.hpp"
 
 namespace graben {
@@ -10,9 +11,6 @@ struct DisplacementLimits {
   double tolerance = 0.0;  ///< Of full displacement.
   double settle_s = 0.0;   ///< Within which it reaches its command.
 };
-
-/// Cycles in a row that a displacement must have run away: one wrong frame may be seen in two.
-inline constexpr int kRunawayCycles = 3;
 
 /// Of a displacement that is judged.
 struct DisplacementCourse {

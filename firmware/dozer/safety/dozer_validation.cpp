@@ -8,6 +8,7 @@
 namespace graben {
 namespace {
 
+/// Signals that a dozer can't do without. [-; size: six of the pose, three a track]
 constexpr std::size_t kRequiredCount = 6 + 3 * kTrackCount;
 
 /// Errors of what is believed are named when it comes in.

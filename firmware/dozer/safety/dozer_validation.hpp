@@ -5,6 +5,7 @@
 #include <array>
 
 #include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/safety/tuning.hpp"
 #include "firmware/dozer/travel/course.hpp"
 #include "firmware/drives/drive_validation.hpp"
 #include "firmware/safety/common_inputs.hpp"
@@ -50,17 +51,6 @@ struct DozerValid : CommonValid {
   [[nodiscard]] const ValidDrive& blade() const { return drive[kBladeLift]; }
   [[nodiscard]] const ValidDrive& tilt() const { return drive[kBladeTilt]; }
 };
-
-/// How far a coordinate may be from where its last value and its measured rate put it: noise,
-/// resolution, and what the rate changes within a frame.
-inline constexpr double kPositionMargin_m = 0.10;
-inline constexpr double kHeightMargin_m = 0.03;
-inline constexpr double kPitchMargin_rad = 0.02;
-/// And per second since its last frame, m/s or rad/s.
-inline constexpr double kRateMargin_ps = 0.5;
-
-/// Beyond this a body lies on its side, or its sensor does.
-inline constexpr double kMostPitch_rad = 0.8;
 
 /// A signal is missing when it was never valid or is older than control.sensor_timeout_s. `moving`:
 /// the mode of the last cycle was Armed or Active; then what only degrades does not stop, and a

@@ -5,6 +5,7 @@
 #include "firmware/dozer/safety/dozer_validation.hpp"
 #include "firmware/dozer/safety/pose_watch.hpp"
 #include "firmware/dozer/safety/transmission_watch.hpp"
+#include "firmware/dozer/safety/tuning.hpp"
 #include "firmware/drives/drive_watch.hpp"
 #include "firmware/safety/common_inputs.hpp"
 #include "firmware/safety/mode.hpp"
@@ -32,13 +33,8 @@ struct DozerLastCommands {
 void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommands& last,
            double period_s, DozerWatchState& state, DozerValid& valid);
 
-/// Slower than this a track stands.
-inline constexpr double kTrackAtRest_mps = 0.05;
-/// Both tracks stand.
+/// Both tracks stand: none is faster than kTrackAtRest_mps.
 [[nodiscard]] bool tracks_at_rest(const DozerValid& valid);
-
-/// Without the tracks' speeds the machine counts as at rest after this; with its pumps at 0 it is.
-inline constexpr double kCoasting_s = 1.0;
 
 /// State of the brake from cycle to cycle.
 struct BrakeState {

@@ -19,7 +19,7 @@ double beyond(double difference, double allowed) {
 
 /// What of the difference to a speed of the tracks is no slip, m/s.
 double beyond_slip(double tracks_mps, double ground_mps) {
-  return beyond(tracks_mps - ground_mps, kSlipMargin_mps + kMostSlip * std::abs(tracks_mps));
+  return beyond(tracks_mps - ground_mps, kSlipMargin_mps + kPoseMostSlip * std::abs(tracks_mps));
 }
 
 /// The least of them.

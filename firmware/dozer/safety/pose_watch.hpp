@@ -6,6 +6,7 @@
 /// frozen with a live counter shows only here.
 
 #include "firmware/dozer/safety/dozer_validation.hpp"
+#include "firmware/dozer/safety/tuning.hpp"
 
 namespace graben {
 
@@ -40,24 +41,6 @@ struct GroundSpeeds {
   double right_mps = 0.0;
   double transmission_mps = 0.0;
 };
-
-/// Residuals forget with this time constant, s: noise and offsets of a rate do not add up.
-inline constexpr double kPoseForget_s = 1.0;
-/// The same of the slope: gentle ones take longer to tell.
-inline constexpr double kSlopeForget_s = 3.0;
-/// Largest residuals of a healthy body, with its noise and the ground's roughness.
-inline constexpr double kMostAhead_m = 0.05;
-inline constexpr double kMostClimbed_m = 0.02;
-inline constexpr double kMostTurned_rad = 0.012;
-/// Of two antennas a metre apart, which are noisier than the unit that measures a pitch.
-inline constexpr double kMostYawed_rad = 0.015;
-inline constexpr double kMostUphill_m = 0.10;
-inline constexpr double kMostSlipped_m = 0.06;
-/// So much of the tracks' speed may be slip, and the rest of the measurement's error, m/s.
-inline constexpr double kMostSlip = 0.3;
-inline constexpr double kSlipMargin_mps = 0.1;
-/// The body turns about where it tips, up to so far from its origin, m: it rises by that, too.
-inline constexpr double kTippingArm_m = 1.0;
 
 /// True: they do not fit. `curvature_pm`: of the track where the body is, to the left positive.
 /// `state` goes on by a cycle.

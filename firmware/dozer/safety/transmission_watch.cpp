@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/safety/tuning.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
 
 namespace graben {
 namespace {
-
-constexpr double kTrackOff_s = 0.3;
-/// Losses that the profile does not know, of the speed.
-constexpr double kLossShare = 0.1;
 
 /// Takes in what one displacement's watch says.
 void take(const DisplacementResult& result, FaultSet& stops) {
@@ -22,18 +19,6 @@ void take(const DisplacementResult& result, FaultSet& stops) {
     stops.add(Fault::kDisplacementRunaway);
   }
 }
-
-/// So long a sensor has to be outvoted, and the sides to be apart.
-constexpr double kOutvoted_s = 0.1;
-constexpr double kApart_s = 0.2;
-/// Of a vote of three; slip is more than what losses are.
-constexpr double kVoteMargin_mps = 0.15;
-constexpr double kSlipShare = 0.2;
-constexpr double kApartMargin_mps = 0.1;
-constexpr double kApartShare = 0.05;
-/// On a curve one side drives and the other brakes: they leak and slip differently. A sensor that
-/// turned the machine there would have it steer back.
-constexpr double kApartOnCurve = 0.2;
 
 bool differs(double a_mps, double b_mps, double margin_mps, double share) {
   return std::abs(a_mps - b_mps) > margin_mps + share * std::abs(b_mps);
@@ -60,15 +45,16 @@ TrackSpeeds speeds_beside(const DozerProfile& profile, const DozerValid& valid) 
 
 bool is_outvoted(const TrackSpeeds& speeds, const DozerValid& valid, unsigned track) {
   const double measured_mps = valid.track_speed_mps[track];
-  return differs(measured_mps, speeds.expected_mps[track], kVoteMargin_mps, kLossShare) &&
-         differs(measured_mps, speeds.beside_mps[track], kVoteMargin_mps, kSlipShare);
+  return differs(measured_mps, speeds.expected_mps[track], kTrackVoteMargin_mps, kTrackLossShare) &&
+         differs(measured_mps, speeds.beside_mps[track], kTrackVoteMargin_mps, kTrackSlipShare);
 }
 
 bool are_apart(const DozerProfile& profile, const TrackSpeeds& speeds, const DozerValid& valid) {
-  const double share = profile.grade.curves() ? kApartOnCurve : kApartShare;
+  const double share = profile.grade.curves() ? kTracksApartOnCurve : kTracksApartShare;
   const double left_mps = valid.track_speed_mps[kLeft] - speeds.expected_mps[kLeft];
   const double right_mps = valid.track_speed_mps[kRight] - speeds.expected_mps[kRight];
-  return std::abs(left_mps - right_mps) > kApartMargin_mps + share * std::abs(speeds.body_mps);
+  return std::abs(left_mps - right_mps) >
+         kTracksApartMargin_mps + share * std::abs(speeds.body_mps);
 }
 
 /// The time that something has lasted.
@@ -79,14 +65,15 @@ bool watch_tracks(const DozerProfile& profile, double period_s, TransmissionWatc
                   DozerValid& valid) {
   const TrackSpeeds speeds = speeds_beside(profile, valid);
   count(are_apart(profile, speeds, valid), period_s, state.apart_s);
-  bool disagree = state.apart_s > kApart_s;
+  bool disagree = state.apart_s > kTracksApart_s;
   for (unsigned i = 0; i < kTrackCount; ++i) {
     valid.track_outvoted[i] = is_outvoted(speeds, valid, i);
     count(valid.track_outvoted[i], period_s, state.outvoted_s[i]);
     count(differs(valid.track_speed_mps[i], speeds.expected_mps[i],
-                  profile.safety.track_speed_tolerance_mps, kLossShare),
+                  profile.safety.track_speed_tolerance_mps, kTrackLossShare),
           period_s, state.track_off_s[i]);
-    disagree = disagree || state.outvoted_s[i] > kOutvoted_s || state.track_off_s[i] > kTrackOff_s;
+    disagree =
+        disagree || state.outvoted_s[i] > kTrackOutvoted_s || state.track_off_s[i] > kTrackOff_s;
   }
   return disagree;
 }

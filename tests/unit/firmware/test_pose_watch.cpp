@@ -208,7 +208,7 @@ TEST(another_slope_is_seen) {
 /// Slip is healthy up to its share; the source nearest to the velocity speaks for it.
 TEST(tracks_that_run_on_are_seen) {
   for (const double tracks_mps : {2.0, -2.0}) {
-    const double slips_mps = (1.0 - kMostSlip) * 2.0 - kSlipMargin_mps;
+    const double slips_mps = (1.0 - kPoseMostSlip) * 2.0 - kSlipMargin_mps;
     const double way = tracks_mps > 0.0 ? 1.0 : -1.0;
     Body standing(way * (slips_mps - 0.2), tracks_mps);
     assert_int_equal(standing.begin_until_seen(),
