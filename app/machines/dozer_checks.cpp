@@ -24,7 +24,6 @@ constexpr double kLeastLeverAngle_rad = 0.15;
 constexpr double kMostSag_m = 0.10;
 /// Steeper ground carries no dozer.
 constexpr double kMostSlope = 0.6;
-constexpr double kGravity_mps2 = 9.80665;
 
 double angle_rad(const Eigen::Vector2d& direction) {
   return std::atan2(direction.y(), direction.x());
@@ -66,7 +65,7 @@ class Triangle {
 };
 
 void check_body(TomlReader& reader, const DozerBody& body) {
-  const double sag_m = body.mass_kg * kGravity_mps2 / (body.wheels * body.suspension_npm);
+  const double sag_m = body.mass_kg * kStandardGravity_mps2 / (body.wheels * body.suspension_npm);
   if (sag_m > kMostSag_m) {
     reader.fail("body.suspension.stiffness",
                 fmt::format("{} N/m; {} wheels sag by {:.3f} m under the mass; allowed: at most "
@@ -270,7 +269,7 @@ DesignErrors errors_of_tilt(const DozerProfile& profile) {
   const DozerBody& body = profile.body;
   const GradeProfile design(grade);
   const double reach_m = BladeKinematics(profile.blade).edge_m(0.0).x();
-  const double sag_m = body.mass_kg * kGravity_mps2 / (body.wheels * body.suspension_npm);
+  const double sag_m = body.mass_kg * kStandardGravity_mps2 / (body.wheels * body.suspension_npm);
   const double twist_most = 2.0 * kMostTwist * sag_m / body.half_gauge_m;
   const double begin_m = grade.begin_m() - reach_m;
   const auto steps = static_cast<int>((grade.end_m() - begin_m) / GradeHeights::kStep_m);

@@ -9,6 +9,9 @@ namespace graben {
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kTwoPi = 2.0 * kPi;
 inline constexpr double kDegreesPerRad = 180.0 / kPi;
+/// Standard acceleration of free fall. [m/s2; standard: 3rd General Conference on Weights and
+/// Measures, 1901]
+inline constexpr double kStandardGravity_mps2 = 9.80665;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace graben

@@ -4,33 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/travel/tuning.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
 
-constexpr double kGravity_mps2 = 9.80665;
-/// Of the line that drains: the class's charge pressure.
-constexpr double kCharge_pa = 2.5e6;
-constexpr double kFilter_s = 0.1;
-/// Beyond this the tracks dig themselves in, and give hardly more.
-constexpr double kMostSlip = 0.15;
-/// A load that rises counts as what it will be when the blade has answered.
-constexpr double kSoon_s = 0.3;
-/// Slower than this, noise and a pose's latency would pass for slip.
-constexpr double kSlowest_mps = 0.5;
-/// The blade rises so fast for a load that is twice what it may be, and no faster.
-constexpr double kRise_mps = 0.3;
-constexpr double kMostRise_mps = 0.25;
-/// Its way down, of the way up.
-constexpr double kDown = 0.6;
-constexpr double kMostLift_m = 0.2;
-/// More than rolling, slopes and getting faster take. How much is kept was tried out on all soils.
-constexpr double kLoaded = 0.3;
-constexpr double kReserve = 0.25;
-
 double low_passed(double last, double now, double period_s) {
-  return last + (now - last) * period_s / (kFilter_s + period_s);
+  return last + (now - last) * period_s / (kLoadFilter_s + period_s);
 }
 
 }  // namespace
@@ -39,21 +20,22 @@ double push_n(const DozerProfile& profile, const DozerValid& valid) {
   const HstProfile& hst = profile.hst;
   double sum_n = 0.0;
   for (unsigned i = 0; i < kTrackCount; ++i) {
-    const double drop_pa = std::max(0.0, valid.line_pressure_pa[i] - kCharge_pa);
+    const double drop_pa = std::max(0.0, valid.line_pressure_pa[i] - kLoadCharge_pa);
     sum_n += drop_pa * valid.motor_ratio[i] * hst.motor_m3prev / kTwoPi * hst.gear_ratio /
              hst.sprocket_radius_m;
   }
-  return sum_n - profile.body.mass_kg * kGravity_mps2 * std::sin(valid.pitch_rad);
+  return sum_n - profile.body.mass_kg * kStandardGravity_mps2 * std::sin(valid.pitch_rad);
 }
 
 double slip_of(const DozerValid& valid) {
   const double track_mps = std::max(valid.track_speed_mps[kLeft], valid.track_speed_mps[kRight]);
-  return std::clamp((track_mps - valid.velocity_mps) / std::max(track_mps, kSlowest_mps), 0.0, 1.0);
+  return std::clamp((track_mps - valid.velocity_mps) / std::max(track_mps, kSlipSlowest_mps), 0.0,
+                    1.0);
 }
 
 double planned_share(const TravelProfile& travel, const PushState& load) {
-  const double loaded = load.push_n / (kLoaded * travel.push_max_n) - 1.0;
-  return travel.flow_share * (1.0 - kReserve * std::clamp(loaded, 0.0, 1.0));
+  const double loaded = load.push_n / (kLoadReserveFrom * travel.push_max_n) - 1.0;
+  return travel.flow_share * (1.0 - kLoadReserve * std::clamp(loaded, 0.0, 1.0));
 }
 
 PushState next_load(const DozerProfile& profile, const PushState& last, const DozerValid& valid,
@@ -64,12 +46,13 @@ PushState next_load(const DozerProfile& profile, const PushState& last, const Do
   const double rising_nps =
       period_s > 0.0 ? std::max(0.0, state.push_n - last.push_n) / period_s : 0.0;
   state.rising_nps = low_passed(last.rising_nps, rising_nps, period_s);
-  const double soon_n = state.push_n + kSoon_s * state.rising_nps;
+  const double soon_n = state.push_n + kLoadSoon_s * state.rising_nps;
   const double too_much =
-      std::max(soon_n / profile.travel.push_max_n - 1.0, state.slip / kMostSlip - 1.0);
-  const double wanted_mps = std::clamp(kRise_mps * (too_much > 0.0 ? too_much : kDown * too_much),
-                                       -kMostRise_mps, kMostRise_mps);
-  state.lift_m = std::clamp(last.lift_m + wanted_mps * period_s, 0.0, kMostLift_m);
+      std::max(soon_n / profile.travel.push_max_n - 1.0, state.slip / kLoadMostSlip - 1.0);
+  const double wanted_mps =
+      std::clamp(kLoadRise_mps * (too_much > 0.0 ? too_much : kLoadDown * too_much),
+                 -kLoadMostRise_mps, kLoadMostRise_mps);
+  state.lift_m = std::clamp(last.lift_m + wanted_mps * period_s, 0.0, kLoadMostLift_m);
   state.rate_mps = period_s > 0.0 ? (state.lift_m - last.lift_m) / period_s : 0.0;
   return state;
 }

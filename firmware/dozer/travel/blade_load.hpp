@@ -23,7 +23,8 @@ struct PushState {
 [[nodiscard]] double slip_of(const DozerValid& valid);
 
 /// Of the available flow, that the ground ahead is planned with. A load on the blade tips the body
-/// as no preview knows: from kLoaded of `push_max_n` on a reserve is kept, in full at twice that.
+/// as no preview knows: from kLoadReserveFrom of `push_max_n` on a reserve is kept, in full at
+/// twice that.
 [[nodiscard]] double planned_share(const TravelProfile& travel, const PushState& load);
 
 /// A cycle on. Above `push_max_n`, or a slip with which the tracks dig themselves in, the blade

@@ -4,22 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/travel/tuning.hpp"
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
-
-constexpr double kGravity_mps2 = 9.80665;
-/// A wheel presses on 0.1 m of track before and behind it: the mean of what lies there is that of
-/// its two points of Gauss.
-constexpr double kHalfWheel_m = 0.0577;
-/// What no machine does: the model must not run away where there is no ground as it expects it.
-constexpr double kMostPitch_rad = 0.8;
-constexpr double kMostClimb_mps = 3.0;
-constexpr double kMostRate_radps = 3.0;
-
-/// Long enough for the noise of rates, short enough for the ground that passes below.
-constexpr double kBias_s = 0.08;
-constexpr double kMostBias_mps2 = 5.0;
-constexpr double kMostBias_radps2 = 5.0;
 
 struct Load {
   double force_n = 0.0;
@@ -31,7 +20,7 @@ struct Load {
 /// What the ground does to the body about its mass centre.
 Load load_of(const DozerBody& body, const GroundMap& ground, const GradeProfile& design, double x_m,
              double speed_mps, const BodyMotion& motion) {
-  const double sag_m = body.mass_kg * kGravity_mps2 / (body.wheels * body.suspension_npm);
+  const double sag_m = body.mass_kg * kStandardGravity_mps2 / (body.wheels * body.suspension_npm);
   const double depth_m = body.mass_centre_height_m + sag_m;
   const double c = std::cos(motion.pitch_rad);
   const double s = std::sin(motion.pitch_rad);
@@ -91,18 +80,18 @@ BodyMotion next_motion(const DozerBody& body, const GroundMap& ground, const Gra
   next.centre_m += half_s * motion.climb_mps;
   next.pitch_rad += half_s * motion.pitch_rate_radps;
   const Load load = load_of(body, ground, design, x_m + half_s * speed_mps, speed_mps, next);
-  const double climbing_mps2 =
-      (load.force_n - body.mass_kg * kGravity_mps2) / (body.mass_kg + half_s * load.damping_nspm);
+  const double climbing_mps2 = (load.force_n - body.mass_kg * kStandardGravity_mps2) /
+                               (body.mass_kg + half_s * load.damping_nspm);
   const double pitching_radps2 =
       load.moment_nm / (body.pitch_inertia_kgm2 + half_s * load.damping_nmsprad);
   next.climb_mps = std::clamp(motion.climb_mps + step_s * (climbing_mps2 + bias.climb_mps2),
-                              -kMostClimb_mps, kMostClimb_mps);
+                              -kModelMostClimb_mps, kModelMostClimb_mps);
   next.pitch_rate_radps =
       std::clamp(motion.pitch_rate_radps + step_s * (pitching_radps2 + bias.pitch_radps2),
-                 -kMostRate_radps, kMostRate_radps);
+                 -kModelMostRate_radps, kModelMostRate_radps);
   next.centre_m += half_s * next.climb_mps;
-  next.pitch_rad =
-      std::clamp(next.pitch_rad + half_s * next.pitch_rate_radps, -kMostPitch_rad, kMostPitch_rad);
+  next.pitch_rad = std::clamp(next.pitch_rad + half_s * next.pitch_rate_radps, -kModelMostPitch_rad,
+                              kModelMostPitch_rad);
   return next;
 }
 
@@ -129,13 +118,13 @@ void next_foretelling(const DozerBody& body, const GroundMap& ground, const Grad
   if (!state.has_expected) {
     bias = {};
   } else if (period_s > 0.0) {
-    const double newest_ps = 1.0 / (period_s + kBias_s);
+    const double newest_ps = 1.0 / (period_s + kModelBias_s);
     const double climb_mps = measured.motion.climb_mps - state.expected.climb_mps;
     const double pitch_radps = measured.motion.pitch_rate_radps - state.expected.pitch_rate_radps;
-    bias.climb_mps2 =
-        std::clamp(bias.climb_mps2 + newest_ps * climb_mps, -kMostBias_mps2, kMostBias_mps2);
-    bias.pitch_radps2 = std::clamp(bias.pitch_radps2 + newest_ps * pitch_radps, -kMostBias_radps2,
-                                   kMostBias_radps2);
+    bias.climb_mps2 = std::clamp(bias.climb_mps2 + newest_ps * climb_mps, -kModelMostBias_mps2,
+                                 kModelMostBias_mps2);
+    bias.pitch_radps2 = std::clamp(bias.pitch_radps2 + newest_ps * pitch_radps,
+                                   -kModelMostBias_radps2, kModelMostBias_radps2);
   }
   state.expected = next_motion(body, ground, design, measured.x_m, measured.speed_mps,
                                measured.motion, period_s, bias);

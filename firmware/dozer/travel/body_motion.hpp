@@ -3,6 +3,7 @@
 /// Motion of the body on its springs and dampers: what (15) and (16) will make of the ground ahead.
 
 #include "firmware/dozer/travel/support.hpp"
+#include "firmware/dozer/travel/tuning.hpp"
 
 namespace graben {
 
@@ -29,9 +30,8 @@ struct BodyBias {
 /// Vertical velocity of the body frame's origin.
 [[nodiscard]] double origin_climb_mps(const DozerBody& body, const BodyMotion& motion);
 
-/// Longest step that next_motion() stays near the truth with.
-inline constexpr double kMotionStep_s = 0.02;
-/// So many reach as far as any dead time and latency do.
+/// Steps of drive_on(), at most. [-; size: 0.8 s in steps of kMotionStep_s; dead time and pose
+/// latency of a profile are 0.7 s at most, and what is longer is done in longer steps]
 inline constexpr int kMostMotionSteps = 40;
 
 /// (15), (16) a step on, from where the origin is at `x_m`, driving with `speed_mps`: wheels on

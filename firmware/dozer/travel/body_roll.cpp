@@ -4,13 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/travel/tuning.hpp"
+
 namespace graben {
-namespace {
-
-/// In which rocking from side to side dies away, and noise of the rate with it.
-constexpr double kRocking_s = 0.05;
-
-}  // namespace
 
 CrossSample cross_below_tracks(const DozerBody& body, const GradeProfile& design, double x_m) {
   // Gauss's two points of the contact.
@@ -25,8 +21,8 @@ BodyRoll roll_after(const DozerBody& body, const GradeProfile& design, const Bod
   const CrossSample from = cross_below_tracks(body, design, from_m);
   const CrossSample to = cross_below_tracks(body, design, to_m);
   const double rocking_radps = measured.rate_radps - from.change_pm * speed_mps;
-  const double kept = std::exp(-std::max(0.0, lead_s) / kRocking_s);
-  return {measured.roll_rad + to.slope - from.slope + rocking_radps * kRocking_s * (1.0 - kept),
+  const double kept = std::exp(-std::max(0.0, lead_s) / kRollRocking_s);
+  return {measured.roll_rad + to.slope - from.slope + rocking_radps * kRollRocking_s * (1.0 - kept),
           to.change_pm * speed_mps + rocking_radps * kept};
 }
 

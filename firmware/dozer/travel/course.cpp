@@ -5,20 +5,13 @@
 #include <cmath>
 
 #include "firmware/dozer/travel/tracks.hpp"
+#include "firmware/dozer/travel/tuning.hpp"
 
 namespace graben {
 namespace {
 
+/// Pieces of the track from origin to edge. [-; size: steps over which its curvature is summed up]
 constexpr int kPieces = 8;
-/// Backward, the way in which an offset halves, and with it the heading's share.
-constexpr double kBackward_m = 3.0;
-/// In which the tracks' slip is learnt; slower than so much nothing is.
-constexpr double kTrim_s = 0.7;
-constexpr double kTrimLeast_mps = 0.15;
-constexpr double kTrimMost_pm = 0.06;
-/// What a track lags behind while the machine gets faster is no shortage.
-constexpr double kShort_s = 0.5;
-constexpr double kNotShort_mps = 0.03;
 
 /// Curvature that brings the edge back to the track: it moves across it by the heading and by what
 /// the body turns.
@@ -29,8 +22,8 @@ double forward_pm(const EdgeCourse& edge, double reach_m) {
 
 double backward_pm(double curvature_pm, const Course& course, double reach_m) {
   const double inside_m = 0.5 * curvature_pm * reach_m * reach_m;
-  return curvature_pm - (course.offset_m - inside_m) / (kBackward_m * kBackward_m) +
-         2.0 * course.heading_rad / kBackward_m;
+  return curvature_pm - (course.offset_m - inside_m) / (kCourseBackward_m * kCourseBackward_m) +
+         2.0 * course.heading_rad / kCourseBackward_m;
 }
 
 }  // namespace
@@ -70,10 +63,11 @@ EdgeCourse edge_course(const GradeProfile& design, double x_m, const Course& cou
 SteeringState steer(const GradeProfile& design, const SteeringState& last,
                     const SteeringSituation& now, double period_s) {
   SteeringState state = last;
-  if (std::abs(now.measured_mps) > kTrimLeast_mps) {
+  if (std::abs(now.measured_mps) > kCourseTrimLeast_mps) {
     const double lost_radps = last.wanted_radps - now.course.yaw_rate_radps;
-    const double share = period_s / (kTrim_s * now.measured_mps);
-    state.trim_pm = std::clamp(last.trim_pm + share * lost_radps, -kTrimMost_pm, kTrimMost_pm);
+    const double share = period_s / (kCourseTrim_s * now.measured_mps);
+    state.trim_pm =
+        std::clamp(last.trim_pm + share * lost_radps, -kCourseTrimMost_pm, kCourseTrimMost_pm);
   }
   const double wanted_pm =
       now.speed_mps >= 0.0
@@ -94,10 +88,10 @@ std::array<double, kTrackCount> steered_mps(const DozerBody& body, double speed_
       std::abs(wanted_mps[kLeft]) > std::abs(wanted_mps[kRight]) ? kLeft : kRight;
   const double way = speed_mps < 0.0 ? -1.0 : 1.0;
   const double lacks_mps = way * (wanted_mps[outer] - measured_mps[outer]);
-  state.short_mps += (lacks_mps - state.short_mps) * period_s / (kShort_s + period_s);
+  state.short_mps += (lacks_mps - state.short_mps) * period_s / (kCourseShort_s + period_s);
   if (wanted_mps[kLeft] != wanted_mps[kRight]) {
     wanted_mps[outer == kLeft ? kRight : kLeft] -=
-        way * std::max(0.0, state.short_mps - kNotShort_mps);
+        way * std::max(0.0, state.short_mps - kCourseNotShort_mps);
   }
   return wanted_mps;
 }

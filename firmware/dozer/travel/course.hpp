@@ -6,6 +6,7 @@
 #include <array>
 
 #include "firmware/dozer/grade_profile.hpp"
+#include "firmware/dozer/travel/tuning.hpp"
 
 namespace graben {
 
@@ -61,12 +62,5 @@ struct SteeringSituation {
 [[nodiscard]] std::array<double, kTrackCount> steered_mps(
     const DozerBody& body, double speed_mps, const std::array<double, kTrackCount>& measured_mps,
     double period_s, SteeringState& state);
-
-inline constexpr double kComeBack_m = 2.0;
-inline constexpr double kTightest_pm = 0.25;
-/// An edge farther off its track than it was nearest, by more than this: the task is left.
-inline constexpr double kMostOffTrack_m = 0.4;
-/// Largest curvature of a design, of an edge so far ahead: it lies askew by so much, rad.
-inline constexpr double kMostAskew_rad = 0.25;
 
 }  // namespace graben

@@ -4,25 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/travel/tuning.hpp"
+
 namespace graben {
 namespace {
 
-/// Longer no body tips before its wheels are down again.
-constexpr double kFall_s = 0.59;  // of steps of 0.02 s
-/// A fall is followed in five cycles.
+/// Steps of a fall in a cycle. [-; size: kFallFollowed_s is followed in five cycles]
 constexpr int kStepsPerCycle = 6;
-/// Of the tolerance: what the edge sinks anyway, and what it may leave standing without another
-/// pass. Both tried out on all soils.
-constexpr double kSinksAnyway = 0.2;
-constexpr double kMostLift = 0.8;
-constexpr double kRise_mps = 0.2;
-/// So slow that it cuts its way down, and does not ride.
-constexpr double kSink_mps = 0.05;
-
-/// The way over which the ground lets go of an edge that it bears, tried out on all soils: shorter
-/// than a corner of the design is round.
-constexpr double kLetsGo_m = 0.1;
-constexpr double kNone_m = 1e-6;
 
 double edge_over_m(const DozerBody& body, const BladeKinematics& blade, const GradeProfile& design,
                    const FallSituation& at) {
@@ -63,7 +51,7 @@ void follow(const DozerProfile& profile, const BladeKinematics& blade, const Gro
     fall_on(profile.body, ground, design, fall);
     fall.least_m = std::min(fall.least_m, edge_over_m(profile.body, blade, design, fall.at));
   }
-  if (fall.time_s >= kFall_s) {
+  if (fall.time_s >= kFallFollowed_s) {
     fall.sinks_m = fall.begin_m - fall.least_m;
     fall.followed = false;
   }
@@ -78,13 +66,13 @@ FallState next_fall(const DozerProfile& profile, const BladeKinematics& blade,
   follow(profile, blade, ground, design, now, fall);
   const double tolerance_m = profile.grade.tolerance_m;
   const double wanted_m =
-      std::clamp(fall.sinks_m - kSinksAnyway * tolerance_m, 0.0, kMostLift * tolerance_m);
+      std::clamp(fall.sinks_m - kFallSinksAnyway * tolerance_m, 0.0, kFallMostLift * tolerance_m);
   const double step_m =
-      std::clamp(wanted_m - last.lift_m, -kSink_mps * period_s, kRise_mps * period_s);
+      std::clamp(wanted_m - last.lift_m, -kFallSink_mps * period_s, kFallRise_mps * period_s);
   fall.lift_m = last.lift_m + step_m;
   fall.rate_mps = period_s > 0.0 ? step_m / period_s : 0.0;
-  fall.speed_mps = kLetsGo_m * now.raise_mps * edge_per_stroke(blade, now.stroke_m) /
-                   std::max(fall.sinks_m, kNone_m);
+  fall.speed_mps = kFallLetsGo_m * now.raise_mps * edge_per_stroke(blade, now.stroke_m) /
+                   std::max(fall.sinks_m, kFallNone_m);
   return fall;
 }
 

@@ -8,11 +8,9 @@
 #include <cmath>
 
 #include "firmware/dozer/grade_profile.hpp"
+#include "firmware/dozer/travel/tuning.hpp"
 
 namespace graben {
-
-/// Further from x = 0 than what a grid of int can count nothing drives.
-inline constexpr double kFurthest_m = 1e6;
 
 /// The last line of a grid of `step_m`, the first at `first_m`, that is not beyond x. Not finite is
 /// no place: that of x = 0.
@@ -27,9 +25,10 @@ inline constexpr double kFurthest_m = 1e6;
 /// edge has reached; nothing of it is allocated, nothing is searched.
 class GroundMap {
  public:
-  static constexpr double kCell_m = 0.05;
+  /// Cells of the map. [-; size: room for kLength_m of ground]
   static constexpr int kCells = 640;
-  static constexpr double kLength_m = kCells * kCell_m;
+  /// Ground that the map remembers. [m; derived: kCells of kGroundCell_m]
+  static constexpr double kLength_m = kCells * kGroundCell_m;
 
   /// The machine stands with its origin at `stand_x_m`, its tracks on a line of this height there
   /// and of this slope, and the cutting edge has come to (x, z). Every cell that the edge has
@@ -52,10 +51,13 @@ class GroundMap {
   /// Heights of a straight line over all cells up to the edge.
   void start(double edge_x_m, double stand_x_m, double stand_z_m, double slope);
   /// The last one whose middle is not beyond x.
-  [[nodiscard]] static int cell_of(double x_m) { return grid_index(x_m, kCell_m, 0.5 * kCell_m); }
-  /// Whole turns of the ring, more than kFurthest_m has.
+  [[nodiscard]] static int cell_of(double x_m) {
+    return grid_index(x_m, kGroundCell_m, 0.5 * kGroundCell_m);
+  }
+  /// Offset that makes an index of a cell positive. [-; size: whole turns of the ring, further than
+  /// kFurthest_m, as the assertion below says]
   static constexpr int kTurns = 50'000 * kCells;
-  static_assert(kTurns * kCell_m > kFurthest_m + kLength_m);
+  static_assert(kTurns * kGroundCell_m > kFurthest_m + kLength_m);
   [[nodiscard]] static unsigned slot(int index) {
     return static_cast<unsigned>(index + kTurns) % kCells;
   }

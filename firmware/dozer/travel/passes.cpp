@@ -4,40 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/travel/tuning.hpp"
+
 namespace graben {
 namespace {
 
-/// Before what is left, to get under way and bring the blade down.
-constexpr double kRunUp_m = 1.2;
-/// More than what is allowed, for the noise of what is measured.
-constexpr double kWorthIt_m = 0.005;
-constexpr double kErrorFilter_s = 0.1;
-/// A pass that leaves more than this of what the one before has left lowers nothing. So many in a
-/// row are the last: a stone that one has loosened the next one takes.
-constexpr double kLowers = 0.95;
-constexpr int kVainMost = 2;
-/// Of what the tracks may push, how much a pass is to take; with less the next goes deeper, but no
-/// more than so much at once.
-constexpr double kFullPush = 0.9;
-constexpr double kDeeper = 1.6;
-/// A load's lift is felt at its worst places: of the pass's depth it counts as so much more than
-/// its mean; from kLacked of the depth on the next pass is less deep.
-constexpr double kLiftCounts = 2.0;
-constexpr double kLacked = 0.25;
-constexpr double kLessDeep = 0.7;
-constexpr double kLeastStep_m = 0.03;
-constexpr double kClear_m = 0.25;
-constexpr double kClear_mps = 0.2;
-constexpr double kStands_mps = 0.05;
-constexpr double kFastestBack_mps = 1.0;
-
 void note(const GradeDesign& design, const PassSituation& now, double period_s, PassState& state) {
-  state.error_m += (now.error_m - state.error_m) * period_s / (kErrorFilter_s + period_s);
+  state.error_m += (now.error_m - state.error_m) * period_s / (kPassErrorFilter_s + period_s);
   // Before where the last pass first left something, the ground is as it is to be, whatever an edge
   // that is still on its way down does over it.
   const double from_m = state.pass > 1 ? state.due_m : design.begin_m();
   if (now.edge_x_m < from_m || now.edge_x_m > design.end_m() ||
-      state.error_m <= design.tolerance_m + kWorthIt_m) {
+      state.error_m <= design.tolerance_m + kPassWorthIt_m) {
     return;
   }
   state.from_m = state.left ? std::min(state.from_m, now.edge_x_m) : now.edge_x_m;
@@ -48,9 +26,10 @@ void note(const GradeDesign& design, const PassSituation& now, double period_s, 
 
 /// At its end.
 bool is_another_worth_it(const GradeDesign& design, PassState& state) {
-  const bool lowers = state.last_left_m2 <= 0.0 || state.left_m2 <= kLowers * state.last_left_m2;
+  const bool lowers =
+      state.last_left_m2 <= 0.0 || state.left_m2 <= kPassLowers * state.last_left_m2;
   state.vain = lowers ? 0 : state.vain + 1;
-  return state.left && state.vain < kVainMost && state.pass < design.passes_most;
+  return state.left && state.vain < kPassVainMost && state.pass < design.passes_most;
 }
 
 /// How hard it is, all the way.
@@ -68,10 +47,11 @@ void begin_pass(const GradeDesign& design, PassState& state) {
   const double depth_m = state.depth_m > 0.0 ? state.depth_m : design.pass_depth_m;
   const double step_m = state.step_m > 0.0 ? state.step_m : design.pass_depth_m;
   const double lifted_m = state.way_m > 0.0 ? state.lifted_m2 / state.way_m : 0.0;
-  const double lacked = std::min(1.0, kLiftCounts * lifted_m / step_m);
-  const double spare = std::clamp(kFullPush / std::max(state.most_push, 0.1), 1.0, kDeeper);
-  state.step_m = std::max(kLeastStep_m, step_m * (lacked > kLacked ? kLessDeep : spare));
-  state.depth_m = depth_m + std::max(kLeastStep_m, (1.0 - lacked) * state.step_m);
+  const double lacked = std::min(1.0, kPassLiftCounts * lifted_m / step_m);
+  const double spare = std::clamp(kPassFullPush / std::max(state.most_push, 0.1), 1.0, kPassDeeper);
+  state.step_m =
+      std::max(kPassLeastStep_m, step_m * (lacked > kPassLacked ? kPassLessDeep : spare));
+  state.depth_m = depth_m + std::max(kPassLeastStep_m, (1.0 - lacked) * state.step_m);
   state.most_push = 0.0;
   state.lifted_m2 = 0.0;
   state.way_m = 0.0;
@@ -86,7 +66,7 @@ void begin_pass(const GradeDesign& design, PassState& state) {
 }
 
 void clear_blade(double wanted_m, double period_s, PassState& state) {
-  const double step_m = kClear_mps * std::max(0.0, period_s);
+  const double step_m = kPassClear_mps * std::max(0.0, period_s);
   const double last_m = state.clear_m;
   state.clear_m += std::clamp(wanted_m - state.clear_m, -step_m, step_m);
   state.clear_mps = period_s > 0.0 ? (state.clear_m - last_m) / period_s : 0.0;
@@ -97,7 +77,7 @@ void clear_blade(double wanted_m, double period_s, PassState& state) {
 PassState next_pass(const GradeDesign& design, const PassState& last, const PassSituation& now,
                     double period_s) {
   PassState state = last;
-  const bool stands = std::abs(now.velocity_mps) < kStands_mps;
+  const bool stands = std::abs(now.velocity_mps) < kPassStands_mps;
   if (state.phase == PassPhase::kCut) {
     state.down = state.down || now.edge_x_m >= state.due_m ||
                  (state.clear_m <= 0.0 && now.error_m <= design.tolerance_m);
@@ -112,14 +92,14 @@ PassState next_pass(const GradeDesign& design, const PassState& last, const Pass
       state.finished = !again;
       state.phase = again ? PassPhase::kStop : PassPhase::kCut;
     }
-  } else if (state.phase == PassPhase::kStop && stands && state.clear_m >= kClear_m) {
+  } else if (state.phase == PassPhase::kStop && stands && state.clear_m >= kPassClear_m) {
     state.phase = PassPhase::kReturn;
-  } else if (state.phase == PassPhase::kReturn && now.edge_x_m <= state.from_m - kRunUp_m) {
+  } else if (state.phase == PassPhase::kReturn && now.edge_x_m <= state.from_m - kPassRunUp_m) {
     state.phase = PassPhase::kTurn;
   } else if (state.phase == PassPhase::kTurn && stands) {
     begin_pass(design, state);
   }
-  clear_blade(state.phase == PassPhase::kCut ? 0.0 : kClear_m, period_s, state);
+  clear_blade(state.phase == PassPhase::kCut ? 0.0 : kPassClear_m, period_s, state);
   return state;
 }
 
@@ -132,9 +112,9 @@ double pass_speed_mps(const PassState& state, const PassSituation& now, double d
   if (state.phase != PassPhase::kReturn) {
     return 0.0;
   }
-  const double way_m = std::max(0.0, now.edge_x_m - (state.from_m - kRunUp_m));
-  const double braked_mps = std::sqrt(2.0 * deceleration_mps2 * way_m) + kStands_mps;
-  return -std::min({desired_mps, kFastestBack_mps, braked_mps});
+  const double way_m = std::max(0.0, now.edge_x_m - (state.from_m - kPassRunUp_m));
+  const double braked_mps = std::sqrt(2.0 * deceleration_mps2 * way_m) + kPassStands_mps;
+  return -std::min({desired_mps, kPassFastestBack_mps, braked_mps});
 }
 
 }  // namespace graben

@@ -5,19 +5,14 @@
 #include <cmath>
 
 #include "firmware/dozer/blade.hpp"
+#include "firmware/dozer/travel/tuning.hpp"
 #include "firmware/dozer/tuning.hpp"
 
 namespace graben {
 namespace {
 
-/// Speeds of the probes, of the wanted one.
-constexpr std::array<double, Preview::kProbes> kShare = {1.0, 0.62, 0.39, 0.24, 0.15, 0.09};
+/// Steps to the edge on the design. [-; size: Newton's method ends by then, from a near guess]
 constexpr int kEdgeSteps = 4;
-/// Nearer than this the next step of Newton's method finds the same.
-constexpr double kOnDesign_rad = 1e-4;
-/// Less is no stretch of its own.
-constexpr double kNoLift_m = 1e-4;
-constexpr double kNoOil_m2 = 1e-9;
 
 /// Of the lift's cylinders within a station.
 struct LiftReach {
@@ -32,11 +27,11 @@ Preview::Preview(const DozerProfile& profile, const BladeKinematics& blade)
       blade_(blade),
       tilt_(profile.tilt),
       edge_per_stroke_(blade.edge_rate_mprad(0.0).y() / -blade.stroke_rate_mprad(0.0)),
-      count_(std::clamp(static_cast<int>(profile.travel.preview_m / kStep_m), 1,
+      count_(std::clamp(static_cast<int>(profile.travel.preview_m / kPreviewStep_m), 1,
                         kMostStations - kBehind - 1)) {}
 
 double Preview::probe_mps(int probe) const {
-  return kShare[static_cast<unsigned>(probe)] * profile_.travel.speed_desired_mps;
+  return kProbeShare[static_cast<unsigned>(probe)] * profile_.travel.speed_desired_mps;
 }
 
 /// theta_1 with the edge on the design.
@@ -46,7 +41,7 @@ double Preview::angle_on(const GradeProfile& design, double x_m, const Stand& st
   const double s = std::sin(stand.pitch_rad);
   double angle_rad = guess_rad;
   double change_rad = 1.0;
-  for (int step = 0; step < kEdgeSteps && std::abs(change_rad) > kOnDesign_rad; ++step) {
+  for (int step = 0; step < kEdgeSteps && std::abs(change_rad) > kPreviewOnDesign_rad; ++step) {
     const Eigen::Vector2d edge_m = blade_.edge_m(angle_rad);
     const Eigen::Vector2d rate = blade_.edge_rate_at_mprad(edge_m);
     const GradeSample wanted = design.at(x_m + c * edge_m.x() - s * edge_m.y());
@@ -102,13 +97,13 @@ void Preview::follow(double x_m, const Stand& measured) {
 void Preview::step(const GroundMap& ground, const GradeProfile& design, int number) {
   Probe& probe = probe_[static_cast<unsigned>(number)];
   const double speed_mps = probe_mps(number);
-  const double step_s = std::min(kMotionStep_s, kStep_m / speed_mps);
+  const double step_s = std::min(kMotionStep_s, kPreviewStep_m / speed_mps);
   const Stand before = stand_of(profile_.body, probe.motion);
   probe.motion =
       next_motion(profile_.body, ground, design, probe.x_m, speed_mps, probe.motion, step_s);
   const double from_m = probe.x_m;
   probe.x_m += speed_mps * step_s;
-  const double station_m = probe.end * kStep_m;
+  const double station_m = probe.end * kPreviewStep_m;
   if (probe.x_m < station_m) {
     return;
   }
@@ -134,7 +129,7 @@ void Preview::step(const GroundMap& ground, const GradeProfile& design, int numb
 template <class ReachOf>
 void Preview::cost(int number, const ReachOf& reach_of) {
   const Probe& probe = probe_[static_cast<unsigned>(number)];
-  const double time_s = kStep_m / probe_mps(number);
+  const double time_s = kPreviewStep_m / probe_mps(number);
   const double towards_end = kBladeEndGain_ps * time_s / (1.0 + kBladeEndGain_ps * time_s);
   double stroke_m = 0.0;
   for (int index = probe.end - 1; index >= probe.begin; --index) {
@@ -154,7 +149,7 @@ void Preview::cost(int number, const ReachOf& reach_of) {
                               stroke_m + std::min(reach_of(index).lowered_m, towards_end * left_m));
     at.lift_m = edge_per_stroke_ * (at.stroke_m - stroke_m);
     most_m = std::max(most_m, at.lift_m);
-    if (at.lift_m > kNoLift_m && index + 1 < probe.end) {
+    if (at.lift_m > kPreviewNoLift_m && index + 1 < probe.end) {
       continue;
     }
     for (; stretch <= index; ++stretch) {
@@ -166,7 +161,7 @@ void Preview::cost(int number, const ReachOf& reach_of) {
 
 void Preview::cost(int number, double flow_m3ps) {
   const double speed_mps = probe_mps(number);
-  const double time_s = kStep_m / speed_mps;
+  const double time_s = kPreviewStep_m / speed_mps;
   const auto reach = [&](double lift_m3ps) {
     return LiftReach{time_s * lift_m3ps / profile_.blade.rod_area_m2(),
                      time_s * lift_m3ps / profile_.blade.cap_area_m2()};
@@ -181,12 +176,13 @@ void Preview::cost(int number, double flow_m3ps) {
 
 double Preview::lift_flow_m3ps(int index, double speed_mps, double flow_m3ps) const {
   const double tilt_m3ps = speed_mps * tilt_m2_[slot(index)];
-  return flow_m3ps - std::min(tilt_m3ps, kTiltShare * flow_m3ps);
+  return flow_m3ps - std::min(tilt_m3ps, kPreviewTiltShare * flow_m3ps);
 }
 
 double Preview::tilt_speed_mps(int index) const {
-  return std::max(profile_.travel.speed_min_mps,
-                  kTiltShare * flow_m3ps_ / std::max(tilt_m2_[slot(index)], kNoOil_m2));
+  return std::max(
+      profile_.travel.speed_min_mps,
+      kPreviewTiltShare * flow_m3ps_ / std::max(tilt_m2_[slot(index)], kPreviewNoOil_m2));
 }
 
 void Preview::look(const GroundMap& ground, const GradeProfile& design, double x_m,
@@ -249,19 +245,19 @@ AheadLimit Preview::limit(double x_m, double speed_mps, double allowed_m, double
   }
   // Between two stations the limit goes over from one to the other: what is passed must not let go
   // at once.
-  const double share = std::clamp(x_m / kStep_m - kBehind - first_, 0.0, 1.0);
+  const double share = std::clamp(x_m / kPreviewStep_m - kBehind - first_, 0.0, 1.0);
   const double passed_mps = limit_of(first_, allowed_m);
   const double left_mps = passed_mps + share * (limit_of(first_ + 1, allowed_m) - passed_mps);
   AheadLimit ahead{kAnySpeed_mps, left_mps};
   double square = left_mps * left_mps;
   const double braked_from_m = x_m + std::max(0.0, speed_mps) * lead_s;
-  const double held_to_m = x_m + std::max(0.0, speed_mps) * kHold_s;
+  const double held_to_m = x_m + std::max(0.0, speed_mps) * kPreviewHold_s;
   for (int index = first_ + 1; index < last(); ++index) {
     const double limit_mps = limit_of(index, allowed_m);
-    const double way_m = std::max(0.0, index * kStep_m - braked_from_m);
+    const double way_m = std::max(0.0, index * kPreviewStep_m - braked_from_m);
     square = std::min(square,
                       limit_mps * limit_mps + 2.0 * profile_.travel.deceleration_max_mps2 * way_m);
-    if (index * kStep_m <= held_to_m) {
+    if (index * kPreviewStep_m <= held_to_m) {
       ahead.lowest_mps = std::min(ahead.lowest_mps, limit_mps);
     }
   }
@@ -302,8 +298,8 @@ BladeLift Preview::lift(double x_m, double speed_mps, double allowed_m) const {
     return {};
   }
   const double here_m = lift_of(before, speed_mps, allowed_m);
-  const double rise = (lift_of(before + 1, speed_mps, allowed_m) - here_m) / kStep_m;
-  return {here_m + rise * (x_m - before * kStep_m), rise};
+  const double rise = (lift_of(before + 1, speed_mps, allowed_m) - here_m) / kPreviewStep_m;
+  return {here_m + rise * (x_m - before * kPreviewStep_m), rise};
 }
 
 double Preview::least_cost_m(double x_m) const {
@@ -322,8 +318,9 @@ double Preview::least_cost_m(double x_m) const {
 }
 
 GradeKept grade_kept(const DozerProfile& profile, double from_m, double to_m) {
-  /// So that the slowest probe keeps ahead.
+  /// Looks at each station. [-; size: as often the slowest probe keeps ahead]
   constexpr int kLooks = 3 * Preview::kProbes;
+  /// Stations of a design, at most. [-; size: 5 km at kPreviewStep_m]
   constexpr int kMostSteps = 100'000;
   const BladeKinematics blade(profile.blade);
   const GradeProfile design(profile.grade);
@@ -334,10 +331,9 @@ GradeKept grade_kept(const DozerProfile& profile, double from_m, double to_m) {
   ground.pass(from_m, start_m, design, from_m, start_m, 0.0);
   Preview preview(profile, blade);
   const double begin_m = from_m - blade.edge_m(0.0).x();
-  const int steps =
-      std::clamp(static_cast<int>((to_m - begin_m) / Preview::kStep_m), 0, kMostSteps);
+  const int steps = std::clamp(static_cast<int>((to_m - begin_m) / kPreviewStep_m), 0, kMostSteps);
   for (int step = 0; step <= steps; ++step) {
-    const double x_m = begin_m + step * Preview::kStep_m;
+    const double x_m = begin_m + step * kPreviewStep_m;
     for (int n = 0; n < kLooks; ++n) {
       preview.look(ground, design, x_m, {start_m, 0.0}, flow_m3ps);
     }

@@ -8,13 +8,14 @@
 #include "firmware/dozer/blade_control.hpp"
 #include "firmware/dozer/tilt.hpp"
 #include "firmware/dozer/travel/body_motion.hpp"
+#include "firmware/dozer/travel/tuning.hpp"
 
 namespace graben {
 
 /// Limits of the way ahead, as a cycle takes them.
 struct AheadLimit {
   double speed_mps = 0.0;   ///< Largest from which braking in time is possible.
-  double lowest_mps = 0.0;  ///< Least limit within the way of kHold_s.
+  double lowest_mps = 0.0;  ///< Least limit within the way of kPreviewHold_s.
 };
 
 /// Probes drive ahead over ground and design, each at its own constant speed, with the machine's
@@ -29,7 +30,7 @@ struct AheadLimit {
 ///
 /// Where the blade tilts, its flow for that is worked out at each station and taken off what the
 /// lift is planned with; no speed is allowed at which the tilt alone would take more than
-/// kTiltShare of it.
+/// kPreviewTiltShare of it.
 ///
 /// Where the track curves, no speed is allowed with which the outer track would have to run faster
 /// than it can.
@@ -38,14 +39,13 @@ struct AheadLimit {
 /// one probe. What no probe has come to yet counts as v_min.
 class Preview {
  public:
-  static constexpr double kStep_m = 0.05;
+  /// Stations that are remembered. [-; size: 4 m at kPreviewStep_m, for the longest preview of a
+  /// profile, 3.5 m, and kBehind]
   static constexpr int kMostStations = 80;
-  static constexpr int kProbes = 6;
+  /// Probes that drive ahead. [-; derived: one for each kProbeShare]
+  static constexpr int kProbes = static_cast<int>(kProbeShare.size());
+  /// Steps of probes in a cycle. [-; size: loop of look(), all probes together]
   static constexpr int kStepsPerCycle = 8;
-  static constexpr double kHold_s = 0.6;
-  static constexpr double kTiltShare = 0.6;
-  /// No machine of this kind is faster.
-  static constexpr double kAnySpeed_mps = 10.0;
 
   /// Both have to outlive it.
   Preview(const DozerProfile& profile, const BladeKinematics& blade);
@@ -83,10 +83,11 @@ class Preview {
   };
   using Needs = std::array<Need, kMostStations>;
 
-  [[nodiscard]] static int station_of(double x_m) { return grid_index(x_m, kStep_m, 0.0); }
-  /// Whole turns of the ring, more than kFurthest_m has.
+  [[nodiscard]] static int station_of(double x_m) { return grid_index(x_m, kPreviewStep_m, 0.0); }
+  /// Offset that makes an index of a station positive. [-; size: whole turns of the ring, further
+  /// than kFurthest_m, as the assertion below says]
   static constexpr int kTurns = 400'000 * kMostStations;
-  static_assert(kTurns * kStep_m > kFurthest_m + kMostStations * kStep_m);
+  static_assert(kTurns * kPreviewStep_m > kFurthest_m + kMostStations * kPreviewStep_m);
   [[nodiscard]] static unsigned slot(int index) {
     return static_cast<unsigned>(index + kTurns) % kMostStations;
   }
@@ -120,7 +121,7 @@ class Preview {
   [[nodiscard]] double limit_of(int index, double allowed_m) const;
   [[nodiscard]] double lift_of(int index, double speed_mps, double allowed_m) const;
 
-  /// Stations passed that still count.
+  /// Stations passed that still count. [-; size: room behind the machine]
   static constexpr int kBehind = 2;
 
   const DozerProfile& profile_;
@@ -160,14 +161,12 @@ struct PositionState {
 /// second; at once where they are further apart than noise and slip make them.
 [[nodiscard]] inline PositionState next_position(const PositionState& last, double measured_m,
                                                  double velocity_mps, double period_s) {
-  constexpr double kDrawn_s = 0.2;
-  constexpr double kApart_m = 0.1;
   const double predicted_m = last.position_m + velocity_mps * period_s;
   const double off_m = measured_m - predicted_m;
-  if (!last.started || !(std::abs(off_m) <= kApart_m)) {
+  if (!last.started || !(std::abs(off_m) <= kPositionApart_m)) {
     return {measured_m, true};
   }
-  return {predicted_m + off_m * period_s / (kDrawn_s + period_s), true};
+  return {predicted_m + off_m * period_s / (kPositionDrawn_s + period_s), true};
 }
 
 }  // namespace graben

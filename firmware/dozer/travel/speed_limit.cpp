@@ -6,31 +6,18 @@
 #include <limits>
 
 #include "firmware/dozer/travel/tracks.hpp"
+#include "firmware/dozer/travel/tuning.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 
 namespace graben {
 namespace {
-
-constexpr double kNoFlow_m3ps = 1e-9;
-/// Of what is planned with, where the plan was wrong. What the transmission adds to it stays below
-/// 1.5 m/s2, also as the blade goes in.
-constexpr double kBraking = 1.1;
-/// Low-pass of the flow that is measured as required: the ground ahead is planned with, this is for
-/// what the plan did not know.
-constexpr double kFlowFilter_s = 0.1;
-/// The same of the edge's error: its sensors' noise must not slow the machine down.
-constexpr double kErrorFilter_s = 0.1;
-/// What a rise has to gain to be begun.
-constexpr double kWorthIt = 0.10;
-/// Between a fall and the next rise.
-constexpr double kPause_s = 0.3;
 
 /// v_max,imp of (11), over the normalised flow of (10).
 double implement_speed_mps(const DozerProfile& profile, const SpeedDemand& demand,
                            double required_flow_m3ps) {
   const double normalised_m3pm =
       required_flow_m3ps / std::max(demand.measured_mps, profile.travel.speed_min_mps);
-  return demand.available_flow_m3ps / std::max(normalised_m3pm, kNoFlow_m3ps);
+  return demand.available_flow_m3ps / std::max(normalised_m3pm, kSpeedNoFlow_m3ps);
 }
 
 double low_passed(double last, double now, double time_s, double period_s) {
@@ -41,7 +28,7 @@ double low_passed(double last, double now, double time_s, double period_s) {
 double on_grade_speed_mps(const DozerProfile& profile, const SpeedDemand& demand,
                           double off_grade_m) {
   const double share =
-      (kOffGrade - off_grade_m / profile.grade.tolerance_m) / (kOffGrade - kOnGrade);
+      (kSpeedOffGrade - off_grade_m / profile.grade.tolerance_m) / (kSpeedOffGrade - kSpeedOnGrade);
   const double least_mps = profile.travel.speed_min_mps;
   return share >= 1.0 ? std::numeric_limits<double>::infinity()
                       : least_mps + std::max(0.0, share) * (demand.desired_mps - least_mps);
@@ -65,17 +52,19 @@ SpeedState followed(const DozerProfile& profile, const SpeedState& last, double 
   const TravelProfile& travel = profile.travel;
   SpeedState state = last;
   if (target_mps < last.speed_mps) {
-    const double slowest_mps = last.speed_mps - kBraking * travel.deceleration_max_mps2 * period_s;
+    const double slowest_mps =
+        last.speed_mps - kSpeedBraking * travel.deceleration_max_mps2 * period_s;
     state.speed_mps = std::max(target_mps, slowest_mps);
     state.rising = false;
     state.since_fall_s = 0.0;
     return state;
   }
-  state.since_fall_s = std::min(last.since_fall_s + period_s, kPause_s);
+  state.since_fall_s = std::min(last.since_fall_s + period_s, kSpeedPause_s);
   // Up to what is desired nothing will hold it again soon.
-  const bool is_worth_it = room_mps > last.speed_mps * (1.0 + kWorthIt) || room_mps >= desired_mps;
-  state.rising =
-      room_mps > last.speed_mps && (last.rising || (is_worth_it && state.since_fall_s >= kPause_s));
+  const bool is_worth_it =
+      room_mps > last.speed_mps * (1.0 + kSpeedWorthIt) || room_mps >= desired_mps;
+  state.rising = room_mps > last.speed_mps &&
+                 (last.rising || (is_worth_it && state.since_fall_s >= kSpeedPause_s));
   if (state.rising) {
     state.speed_mps = std::min(room_mps, last.speed_mps + travel.acceleration_max_mps2 * period_s);
   }
@@ -104,9 +93,9 @@ SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
   SpeedCap cap{std::min(body_max_mps[kLeft], body_max_mps[kRight]),
                {LimitKind::kTransmissionFlow, slower}};
   const double required_m3ps =
-      low_passed(last.required_flow_m3ps, demand.required_flow_m3ps, kFlowFilter_s, period_s);
+      low_passed(last.required_flow_m3ps, demand.required_flow_m3ps, kSpeedFlowFilter_s, period_s);
   const double off_grade_m =
-      low_passed(last.off_grade_m, std::abs(demand.off_m), kErrorFilter_s, period_s);
+      low_passed(last.off_grade_m, std::abs(demand.off_m), kSpeedErrorFilter_s, period_s);
   const double implement_mps = implement_speed_mps(profile, demand, required_m3ps);
   if (profile.travel.policy == SpeedPolicy::kBounded) {
     cap.tighten(implement_mps, {LimitKind::kImplementFlow, 0});

@@ -6,10 +6,6 @@
 
 namespace graben {
 
-/// Of the error that the task allows.
-inline constexpr double kOnGrade = 0.6;
-inline constexpr double kOffGrade = 2.0;
-
 /// Inputs of the choice of speed.
 struct SpeedDemand {
   double desired_mps = 0.0;          ///< v_d, the operator's share of it.
@@ -40,18 +36,19 @@ struct SpeedChoice {
 
 /// v_c of (14) after the acceleration limit, from that of the last cycle.
 ///
-/// Beyond the paper it slows down while the edge is more than kOnGrade of what is allowed off where
-/// it is meant to be, to v_min at kOffGrade of it: so it begins with the blade on the grade, and
-/// what went wrong is mended on the spot.
+/// Beyond the paper it slows down while the edge is more than kSpeedOnGrade of what is allowed off
+/// where it is meant to be, to v_min at kSpeedOffGrade of it: so it begins with the blade on the
+/// grade, and what went wrong is mended on the spot.
 ///
 /// v_max,imp of (11) is not computed while the blade needs no flow, as in the paper, and no speed
 /// below v_min is divided by. Every limit is at least v_min, but the operator's own.
 ///
 /// Algorithm 1 keeps the machine from getting faster while the blade is off home, as the body is
 /// about to incline. Here the ground ahead is known: off home it rises no higher than the lowest
-/// limit on the way of Preview::kHold_s, and begins to rise only where that is worth it and some
+/// limit on the way of kPreviewHold_s, and begins to rise only where that is worth it and some
 /// time after it fell; so a wanted speed does not run up and down with every limit that it passes.
-/// It brakes at 1.25 times `deceleration_max_mps2` at most: what is ahead is planned with less.
+/// It brakes at kSpeedBraking times `deceleration_max_mps2` at most: what is ahead is planned with
+/// less.
 [[nodiscard]] SpeedChoice next_speed(const DozerProfile& profile, const SpeedState& last,
                                      const SpeedDemand& demand, double period_s);
 

@@ -5,17 +5,11 @@
 #include <cmath>
 
 #include "firmware/dozer/mobile_jacobian.hpp"
+#include "firmware/dozer/travel/tuning.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
-
-constexpr double kGravity_mps2 = 9.80665;
-constexpr double kMostStep_m = 0.05;
-constexpr double kMostStep_rad = 0.05;
-constexpr double kMostPitch_rad = 0.8;
-/// The next step of Newton's method is the square of this.
-constexpr double kAtRest_m = 1e-4;
-constexpr double kAtRest_rad = 1e-4;
 
 /// What is missing to equilibrium, and how it changes with height and pitch.
 struct Balance {
@@ -31,7 +25,7 @@ struct Balance {
 /// then given way by its share of the weight.
 Balance balance_of(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
                    double x_m, const Stand& stand) {
-  const double weight_n = body.mass_kg * kGravity_mps2;
+  const double weight_n = body.mass_kg * kStandardGravity_mps2;
   const double sag_m = weight_n / (body.wheels * body.suspension_npm);
   const double c = std::cos(stand.pitch_rad);
   const double s = std::sin(stand.pitch_rad);
@@ -74,11 +68,12 @@ Stand next_stand(const Balance& balance, const Stand& stand) {
                determinant;
   } else if (balance.force_per_m < 0.0) {
     // No rest here: it tips to where the moment drives it.
-    turn_rad = std::copysign(kMostStep_rad, balance.moment_nm);
+    turn_rad = std::copysign(kStandMostStep_rad, balance.moment_nm);
   }
-  return {stand.height_m + std::clamp(up_m, -kMostStep_m, kMostStep_m),
-          std::clamp(stand.pitch_rad + std::clamp(turn_rad, -kMostStep_rad, kMostStep_rad),
-                     -kMostPitch_rad, kMostPitch_rad)};
+  return {
+      stand.height_m + std::clamp(up_m, -kStandMostStep_m, kStandMostStep_m),
+      std::clamp(stand.pitch_rad + std::clamp(turn_rad, -kStandMostStep_rad, kStandMostStep_rad),
+                 -kModelMostPitch_rad, kModelMostPitch_rad)};
 }
 
 }  // namespace
@@ -86,8 +81,8 @@ Stand next_stand(const Balance& balance, const Stand& stand) {
 StandStep step_to_rest(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
                        double x_m, const Stand& stand) {
   const Stand next = next_stand(balance_of(body, ground, design, x_m, stand), stand);
-  return {next, std::abs(next.height_m - stand.height_m) < kAtRest_m &&
-                    std::abs(next.pitch_rad - stand.pitch_rad) < kAtRest_rad};
+  return {next, std::abs(next.height_m - stand.height_m) < kStandAtRest_m &&
+                    std::abs(next.pitch_rad - stand.pitch_rad) < kStandAtRest_rad};
 }
 
 Stand stand_at(const DozerBody& body, const GroundMap& ground, const GradeProfile& design,
@@ -101,11 +96,10 @@ Stand stand_at(const DozerBody& body, const GroundMap& ground, const GradeProfil
 
 namespace {
 
-constexpr double kStep_m = 0.2;
+/// Places of a design, at most. [-; size: 20 km at kGradeReachStep_m]
 constexpr int kMostSteps = 100'000;
+/// Steps to the edge on the design. [-; size: Newton's method ends by then, from the blade's home]
 constexpr int kReachSteps = 6;
-constexpr double kMostAngle_rad = 1.0;
-constexpr double kTolerance_m = 0.008;
 
 /// theta_1 with the edge on the design, whether the cylinders allow it or not.
 double angle_on(const BladeKinematics& blade, const GradeProfile& design, const BodyPose& body) {
@@ -115,7 +109,7 @@ double angle_on(const BladeKinematics& blade, const GradeProfile& design, const 
     const GradeSample wanted = design.at(edge.x());
     const Vector6d rate = blade_jacobian(blade, body, angle_rad);
     angle_rad += (wanted.height_m - edge.z()) / std::max(rate[2] - wanted.slope * rate[0], 0.1);
-    angle_rad = std::clamp(angle_rad, -kMostAngle_rad, kMostAngle_rad);
+    angle_rad = std::clamp(angle_rad, -kGradeReachMostAngle_rad, kGradeReachMostAngle_rad);
   }
   return angle_rad;
 }
@@ -129,14 +123,15 @@ GradeReach grade_reach(const DozerProfile& profile, double from_m, double to_m) 
   GroundMap ground;
   ground.pass(from_m, start_m, design, from_m, start_m, 0.0);
   Stand stand{start_m, 0.0};
-  const int steps = std::clamp(static_cast<int>((to_m - from_m) / kStep_m), 0, kMostSteps);
+  const int steps =
+      std::clamp(static_cast<int>((to_m - from_m) / kGradeReachStep_m), 0, kMostSteps);
   for (int step = 0; step <= steps; ++step) {
-    const double x_m = from_m + step * kStep_m;
+    const double x_m = from_m + step * kGradeReachStep_m;
     stand = stand_at(profile.body, ground, design, x_m, stand);
     const BodyPose body{{x_m, 0.0, stand.height_m}, rotation_from_pitch(stand.pitch_rad)};
     const double edge_m = blade.edge_m(angle_on(blade, design, body)).y();
-    if (edge_m < profile.blade.edge_min_m - kTolerance_m ||
-        edge_m > profile.blade.edge_max_m + kTolerance_m) {
+    if (edge_m < profile.blade.edge_min_m - kGradeReachTolerance_m ||
+        edge_m > profile.blade.edge_max_m + kGradeReachTolerance_m) {
       return {false, x_m, edge_m};
     }
   }

@@ -21,7 +21,7 @@ struct StandStep {
   bool at_rest = false;  ///< Another step would change nothing that counts.
 };
 
-/// So many steps find any rest that there is.
+/// Steps of stand_at(), at most. [-; size: Newton's method finds any rest that there is by then]
 inline constexpr int kMostStandSteps = 8;
 
 /// Towards where (15) and (16) come to rest with the origin at `x_m`: wheels on springs that only
@@ -41,8 +41,8 @@ struct GradeReach {
 };
 
 /// Walks the machine over the design as already cut, standing on it as its springs carry it at
-/// rest, from `from_m` to `to_m` in steps of 20 cm. Some millimetres beyond the blade's reach count
-/// as reached. The ground before `from_m` is taken as level with the design there.
+/// rest, from `from_m` to `to_m` in steps of kGradeReachStep_m. Some millimetres beyond the blade's
+/// reach count as reached. The ground before `from_m` is taken as level with the design there.
 [[nodiscard]] GradeReach grade_reach(const DozerProfile& profile, double from_m, double to_m);
 
 }  // namespace graben

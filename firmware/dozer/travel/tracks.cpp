@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/travel/tuning.hpp"
+
 namespace graben {
 namespace {
 
@@ -37,35 +39,25 @@ Displacements displacements_for(const HstProfile& hst, double engine_radps, doub
   return {std::copysign(1.0, share), std::max(hst.motor_ratio_min, 1.0 / std::abs(share))};
 }
 
-namespace {
-/// More than leakage and slip ever take.
-constexpr double kMostIntegral_mps = 0.4;
-constexpr double kMostAcceleration_mps2 = 2.0;
-/// Lag that oil, bus and the ground's shear leave of a track's speed behind what is wanted: nothing
-/// to be made up for, or the machine brakes harder than it is told to. As braking sets in it is
-/// longer than later on.
-constexpr double kExpectedLag_s = 0.12;
-}  // namespace
-
 TrackCommand control_track(const DozerProfile& profile, const TrackState& last, double wanted_mps,
                            double measured_mps, double engine_radps, double period_s) {
   TrackCommand command;
   command.state = last;
   command.state.last_wanted_mps = wanted_mps;
   command.state.expected_mps +=
-      (wanted_mps - last.expected_mps) * period_s / (kExpectedLag_s + period_s);
+      (wanted_mps - last.expected_mps) * period_s / (kTrackExpectedLag_s + period_s);
   const double error_mps = command.state.expected_mps - measured_mps;
-  const double acceleration_mps2 = period_s > 0.0
-                                       ? std::clamp((wanted_mps - last.last_wanted_mps) / period_s,
-                                                    -kMostAcceleration_mps2, kMostAcceleration_mps2)
-                                       : 0.0;
+  const double acceleration_mps2 =
+      period_s > 0.0 ? std::clamp((wanted_mps - last.last_wanted_mps) / period_s,
+                                  -kTrackMostAcceleration_mps2, kTrackMostAcceleration_mps2)
+                     : 0.0;
   const double speed_mps = wanted_mps + profile.hst.response_s * acceleration_mps2 +
                            profile.travel.track_gain * error_mps + last.integral_mps;
   const double most_mps = track_speed_max_mps(profile.hst, engine_radps);
   if (std::abs(speed_mps) < most_mps) {
     command.state.integral_mps =
         std::clamp(last.integral_mps + profile.travel.track_integral_ps * error_mps * period_s,
-                   -kMostIntegral_mps, kMostIntegral_mps);
+                   -kTrackMostIntegral_mps, kTrackMostIntegral_mps);
   }
   command.displacements = displacements_for(profile.hst, engine_radps, speed_mps);
   return command;

@@ -159,9 +159,9 @@ TEST(the_speed_leaves_the_tilt_its_flow) {
   const double slope_mps = limit_mps(0.4);
   const double lever_m = std::abs(shipped().stroke_rate_mprad(0.1));
   const double least_mps =
-      Preview::kTiltShare * flow_m3ps / (profile().tilt.cap_area_m2() * lever_m * 0.4);
+      kPreviewTiltShare * flow_m3ps / (profile().tilt.cap_area_m2() * lever_m * 0.4);
   const double most_mps =
-      Preview::kTiltShare * flow_m3ps / (profile().tilt.rod_area_m2() * lever_m * 0.4);
+      kPreviewTiltShare * flow_m3ps / (profile().tilt.rod_area_m2() * lever_m * 0.4);
   assert_true(slope_mps > 0.9 * least_mps && slope_mps < 1.1 * most_mps);
   assert_near(limit_mps(0.8) / slope_mps, 0.5, 0.1);
 }

@@ -127,9 +127,9 @@ TEST(a_trembling_limit_does_not_make_it_tremble, SpeedState state) {
 TEST(off_the_grade_it_slows_down) {
   SpeedDemand demand = easy();
   const double allowed_m = profile().grade.tolerance_m;
-  demand.off_m = -kOnGrade * allowed_m;
+  demand.off_m = -kSpeedOnGrade * allowed_m;
   assert_near(after(demand, 6.0).state.speed_mps, 1.6, 1e-12);
-  demand.off_m = 0.5 * (kOnGrade + kOffGrade) * allowed_m;
+  demand.off_m = 0.5 * (kSpeedOnGrade + kSpeedOffGrade) * allowed_m;
   const SpeedChoice half = after(demand, 6.0);
   assert_near(half.state.speed_mps, 0.1 + 0.5 * 1.5, 1e-3);
   assert_int_equal(half.limit.kind, LimitKind::kOffGrade);
