@@ -3,26 +3,21 @@
 /// An angle that its sensor shows late, as of the time that it came: it goes on at its rate.
 
 #include <array>
-#include <cstddef>
 
 #include "firmware/core/time.hpp"
+#include "firmware/estimation/tuning.hpp"
 #include "firmware/signals/signal.hpp"
 
 namespace graben {
 
 /// What was shown before, newest first. As constructed nothing has been seen.
 struct ForetoldAngle {
-  /// The rate is that over so many readings: a sensor's resolution counts half as much over two.
-  static constexpr std::size_t kBefore = 2;
-  /// Readings farther apart say nothing of the rate.
-  static constexpr TimeUs kLongest_us = 50 * kMillisecondUs;
-
   struct Reading {
     bool known = false;
     double angle_rad = 0.0;
     TimeUs stamp_us = 0;
   };
-  std::array<Reading, 1 + kBefore> reading{};
+  std::array<Reading, 1 + kForetoldReadings> reading{};
 };
 
 /// `shown`, `latency_s` after what it tells of, rad. As it is shown where it is not valid, and

@@ -4,29 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/estimation/tuning.hpp"
 #include "firmware/numeric/constants.hpp"
 #include "firmware/numeric/triangle.hpp"
 
 namespace graben {
 namespace {
-
-constexpr double kGravity_mps2 = 9.80665;
-/// Less than this has no direction worth anything: free fall.
-constexpr double kLeastForce_mps2 = 0.3 * kGravity_mps2;
-/// How fast a bias may wander, rad/s per square root of a second: 0.02 deg/s in 100 s.
-constexpr double kBiasWander = 3.5e-5;
-/// Of the body's own acceleration so much is wrong: pins' play, links that bend.
-constexpr double kAccelerationWrong = 0.1;
-/// For contradictions: how much more a force counts as disturbed that is not as large as expected.
-/// What hits a link over and over turns its force to one side on average.
-constexpr double kDisturbed = 4.0;
-/// It counts so much nevertheless: an axis that is off for good is told within seconds.
-constexpr double kCountsLeast = 0.05;
-/// A rate above this is no bias, whatever the caller holds for rest; in standard deviations.
-constexpr double kRestMost = 4.0;
-constexpr double kOffTime_s = 1.0;
-/// 3 deg is no bias: vibration averages out over kOffTime_s.
-constexpr double kContradicts_rad = 0.05;
 
 double square(double value) { return value * value; }
 
@@ -57,7 +40,7 @@ double LinkAngle::sd_rad(double time_s) const {
   return std::sqrt(std::max(0.0, variance));
 }
 
-bool LinkAngle::contradicts() const { return std::abs(off_rad) > kContradicts_rad; }
+bool LinkAngle::contradicts() const { return std::abs(off_rad) > kAngleContradicts_rad; }
 
 void begin_angle(const AngleNoise& noise, const AngleReading& reading, LinkAngle& state) {
   // What is known of the gyro stays true.
@@ -66,12 +49,12 @@ void begin_angle(const AngleNoise& noise, const AngleReading& reading, LinkAngle
   state = {};
   state.bias_radps = bias_radps;
   state.bias_variance = bias_variance > 0.0 ? bias_variance : square(noise.bias_radps);
-  if (!(reading.force_mps2.norm() > kLeastForce_mps2)) {
+  if (!(reading.force_mps2.norm() > kAngleLeastForce_mps2)) {
     return;
   }
   state.readings = 1;
   state.angle_rad = wrap_near(0.5 * kPi - direction(reading.force_mps2), 0.0);
-  state.angle_variance = square(noise.force_mps2 / kGravity_mps2);
+  state.angle_variance = square(noise.force_mps2 / kStandardGravity_mps2);
   state.last = reading;
 }
 
@@ -84,8 +67,8 @@ void carry_angle(const AngleNoise& noise, const AngleReading& reading, bool at_r
   state.angle_variance += period_s * (period_s * state.bias_variance - 2.0 * state.covariance) +
                           square(noise.rate_radps * period_s);
   state.covariance -= period_s * state.bias_variance;
-  state.bias_variance += square(kBiasWander) * period_s;
-  const double most_radps = kRestMost * std::hypot(noise.rate_radps, noise.bias_radps);
+  state.bias_variance += square(kGyroBiasWander) * period_s;
+  const double most_radps = kRestMostDeviations * std::hypot(noise.rate_radps, noise.bias_radps);
   if (at_rest && std::abs(reading.rate_radps) < most_radps) {
     take(reading.rate_radps - state.bias_radps, 0.0, 1.0, square(noise.rate_radps), state);
   }
@@ -100,9 +83,9 @@ void carry_angle(const AngleNoise& noise, const AngleReading& reading, bool at_r
 void correct_angle(const AngleNoise& noise, const Eigen::Vector2d& acceleration_mps2,
                    LinkAngle& state) {
   const Eigen::Vector2d& shown = state.then.force_mps2;
-  const Eigen::Vector2d expected = acceleration_mps2 + Eigen::Vector2d(0.0, kGravity_mps2);
+  const Eigen::Vector2d expected = acceleration_mps2 + Eigen::Vector2d(0.0, kStandardGravity_mps2);
   const double least = std::min(shown.norm(), expected.norm());
-  if (!(least > kLeastForce_mps2)) {
+  if (!(least > kAngleLeastForce_mps2)) {
     return;
   }
   const double angle_rad = direction(expected) - direction(shown);
@@ -110,12 +93,12 @@ void correct_angle(const AngleNoise& noise, const Eigen::Vector2d& acceleration_
   // Whatever hits the link is in the force and in no rate. How much the size of the force is not as
   // expected tells how wrong its direction may be.
   const double noise_mps2 = square(noise.force_mps2);
-  const double wrong_mps2 = square(kAccelerationWrong * acceleration_mps2.norm());
+  const double wrong_mps2 = square(kLinkAccelerationOff * acceleration_mps2.norm());
   const double hit_mps2 = square(shown.norm() - expected.norm());
-  const double calm =
-      std::max(kCountsLeast, noise_mps2 / (noise_mps2 + wrong_mps2 + kDisturbed * hit_mps2));
+  const double calm = std::max(kAngleLeastWeight,
+                               noise_mps2 / (noise_mps2 + wrong_mps2 + kAngleHitWeight * hit_mps2));
   state.off_rad +=
-      calm * std::min(1.0, state.last.period_s / kOffTime_s) * (error_rad - state.off_rad);
+      calm * std::min(1.0, state.last.period_s / kAngleOffTime_s) * (error_rad - state.off_rad);
   take(error_rad, 1.0, 0.0, (noise_mps2 + wrong_mps2 + hit_mps2) / square(least), state);
 }
 

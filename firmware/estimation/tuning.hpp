@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Numbers that were chosen for the angles of bodies, each with why: angles that come late, and
+/// angles by gyro and accelerometer.
+
+#include <cstddef>
+
+#include "firmware/core/time.hpp"
+#include "firmware/numeric/constants.hpp"
+
+namespace graben {
+
+// Foretold angles (foretold_angle.cpp)
+
+/// Readings that a late angle's rate is taken over. [-; chosen: over two a sensor's resolution
+/// counts half as much as over one; others not tried]
+inline constexpr std::size_t kForetoldReadings = 2;
+/// Longest time between readings that still give a rate. [us; chosen: farther apart they say
+/// nothing of it; not tried]
+inline constexpr TimeUs kForetoldLongest_us = 50 * kMillisecondUs;
+
+// Angle by gyro and accelerometer (link_angle.cpp)
+
+/// Specific force below which it has no direction worth using: free fall. [m/s2; chosen: 0.3 of
+/// gravity; not tried]
+inline constexpr double kAngleLeastForce_mps2 = 0.3 * kStandardGravity_mps2;
+/// Deviation that a gyro's bias wanders in 1 s, growing with the root of time. [rad/s; chosen: 0.02
+/// deg/s in 100 s; not tried]
+inline constexpr double kGyroBiasWander = 3.5e-5;
+/// Share of a link's own computed acceleration that may be wrong. [-; chosen: pins have play and
+/// links bend; not tried]
+inline constexpr double kLinkAccelerationOff = 0.1;
+/// Weight of an unexpected size of the force in the check for contradictions. [-; chosen: repeated
+/// hits turn the mean force to one side; tried 0, runs in loam ended by right sensors]
+inline constexpr double kAngleHitWeight = 4.0;
+/// Least weight of a reading in the check for contradictions. [-; chosen: an axis that is off for
+/// good is told within seconds amid hits too; tried 0, it was not]
+inline constexpr double kAngleLeastWeight = 0.05;
+/// Gyro rate at rest above which it is no bias, in standard deviations. [-; chosen: whatever the
+/// caller takes for rest; not tried]
+inline constexpr double kRestMostDeviations = 4.0;
+/// Time constant of the low-pass before gyro and gravity count as contradicting. [s; chosen: long
+/// enough to average vibration out; tried 2 s, with 0.1 rad]
+inline constexpr double kAngleOffTime_s = 1.0;
+/// Mean angle between gyro and gravity from which they contradict each other. [rad; chosen: 3 deg
+/// is no bias; tried 0.1]
+inline constexpr double kAngleContradicts_rad = 0.05;
+
+}  // namespace graben
