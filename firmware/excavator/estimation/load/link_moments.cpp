@@ -3,13 +3,11 @@
 
 #include <cmath>
 
+#include "firmware/excavator/estimation/load/tuning.hpp"
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
-
-constexpr double kGravity_mps2 = 9.81;
-/// Of a bucket whose floor nobody said: of its length, and from the line teeth to pin down.
-constexpr double kFloor = 0.45;
-constexpr double kFloor_rad = 0.65;
 
 Eigen::Vector2d left_of(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 
@@ -34,8 +32,8 @@ Eigen::Vector2d load_middle_m(const ExcavatorGeometry& geometry) {
   const double length_m = geometry.bucket_length_m;
   const ExcavatorBody& body = geometry.body;
   const bool said = body.floor_m > 0.0;
-  const double floor_m = said ? body.floor_m : kFloor * length_m;
-  const double floor_rad = said ? body.floor_rad : kFloor_rad;
+  const double floor_m = said ? body.floor_m : kUnsaidFloor * length_m;
+  const double floor_rad = said ? body.floor_rad : kUnsaidFloor_rad;
   const double heel_m = length_m - floor_m * std::cos(floor_rad);
   const double deep_m = floor_m * std::sin(floor_rad);
   const double sum_m = heel_m + length_m;
@@ -75,9 +73,9 @@ LinkMoments holding_moments(const OilProfile& oil, const LinkPlaces& at) {
     const double pin_m = at.pin_m[joint].x();
     for (unsigned link = joint; link < kAxisCount; ++link) {
       moments.of_link(joint, link) =
-          kGravity_mps2 * oil.link[link].mass_kg * (at.centre_m[link].x() - pin_m);
+          kRoundedGravity_mps2 * oil.link[link].mass_kg * (at.centre_m[link].x() - pin_m);
     }
-    moments.load_nmpkg[joint] = kGravity_mps2 * (at.load_m.x() - pin_m);
+    moments.load_nmpkg[joint] = kRoundedGravity_mps2 * (at.load_m.x() - pin_m);
   }
   return moments;
 }

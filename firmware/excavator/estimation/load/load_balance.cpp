@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/estimation/load/tuning.hpp"
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
-
-constexpr double kGravity_mps2 = 9.81;
-/// Slower, the sign of friction is not known.
-constexpr double kMoves_mps = 0.006;
 
 void pass(const Eigen::Vector3d& seen, double period_s, bool restart, PairedFilter& filter) {
   if (restart) {
@@ -41,7 +40,7 @@ void next_balance(const ExcavatorProfile& profile, const LoadSeen& seen, double 
   balance.force_n = filter.force_n.value - per_lever.cwiseProduct(moving.of_link.rowwise().sum());
   balance.teeth = per_lever.asDiagonal() * teeth_moments_m(at);
   for (int axis = 0; axis < kAxisCount; ++axis) {
-    const double side = std::clamp(balance.speed_mps[axis] / kMoves_mps, -1.0, 1.0);
+    const double side = std::clamp(balance.speed_mps[axis] / kFrictionMoves_mps, -1.0, 1.0);
     TermRow& row = balance.row[static_cast<unsigned>(axis)];
     row.share = {1.0,
                  side,
@@ -52,7 +51,7 @@ void next_balance(const ExcavatorProfile& profile, const LoadSeen& seen, double 
                  0.0,
                  0.0,
                  filter.load_npkg.value[axis] + per_lever[axis] * moving.load_nmpkg[axis],
-                 per_lever[axis] * kGravity_mps2};
+                 per_lever[axis] * kRoundedGravity_mps2};
     for (int link = axis; link < kAxisCount; ++link) {
       row.share[3U + static_cast<unsigned>(link)] =
           per_lever[axis] * (holding.of_link(axis, link) + moving.of_link(axis, link));

@@ -5,72 +5,38 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/estimation/load/tuning.hpp"
 #include "firmware/numeric/cube_root.hpp"
 
 namespace graben {
 namespace {
 
-/// Noise of a transducer, of its range, and what levers and sensed strokes put a force off, of it.
-constexpr double kNoise = 0.02;
-constexpr double kLeverOff = 0.01;
-/// Blocks follow each other with what is not noise in them; each tells so much less than it seems.
-constexpr double kAlike = 1.5;
-/// An axis that stands tells the less: its friction is the same all the time.
-constexpr double kStands = 4.0;
-/// Farther from what is expected, something touches the bucket.
-constexpr double kGate = 4.0;
-/// What the ground may do, N.
-constexpr double kForce_n = 60e3;
-/// What the ground bears the floor with, away from the teeth, and how it changes within the
-/// filters' lag put a force off, of it: by runs in four soils (tests/README.md).
-constexpr double kForceOff = 0.25;
-/// What a bucket may carry, kg, by the cube of its length; and the deviation.
-constexpr double kFill_kgpm3 = 450.0;
-constexpr double kEmptySd_kg = 3.0;
-constexpr double kHangs = 0.05;  ///< In a bucket that stands steeply, of what it may carry.
-constexpr double kOutwardSd_m = 0.05;
-/// Deviation of what is in the bucket while it fills: of a full one, and of what is expected; and
-/// of where it lies, m.
-constexpr double kFillOff = 0.25;
-constexpr double kFullOff = 0.3;
-constexpr double kFillOff_m = 0.1;
-/// Of loose soil; and height of a heap, whose sides slide at 38 degrees, over its volume's cube
-/// root.
-constexpr double kLoose_kgpm3 = 1300.0;
+/// Height of a heap over the cube root of its volume. [-; derived: a cone with sides of 38 deg, (3
+/// tan^2 / pi)^(1/3)]
 constexpr double kHeap = 0.83;
-/// Higher no bucket pours on: what comes to more has been carried away, or lies elsewhere.
-constexpr double kHeapMost_m = 1.6;
-/// A payload is told after so many readings of an axis that moves, once its deviation is less than
-/// this share of a full bucket.
-constexpr int kWeighed = 10;
-constexpr double kTold = 0.12;
-/// So many blocks in a row that don't go with a payload: it was learnt from what was no payload.
-constexpr int kRefusedMost = 4;
-/// More than this is left aside: an axis that stands has friction of any sign.
-constexpr double kSteady = 0.99;
-static_assert(kLoadBlock == 3 * kAxisCount + 1, "a piece of the work for each cycle");
 
 double fill_kg(const ExcavatorGeometry& geometry) {
   const double length_m = geometry.bucket_length_m;
-  return kFill_kgpm3 * length_m * length_m * length_m;
+  return kBucketFill_kgpm3 * length_m * length_m * length_m;
 }
 
 /// Deviation of one reading's noise, N.
 double noise_n(const ExcavatorProfile& profile, int axis) {
   const CylinderGeometry& cylinder = profile.geometry.cylinder[static_cast<unsigned>(axis)];
-  return kNoise * profile.safety.pressure_rail_pa *
+  return kTransducerNoise * profile.safety.pressure_rail_pa *
          std::hypot(cylinder.cap_area_m2(), cylinder.rod_area_m2());
 }
 
 void forget_load(const ExcavatorGeometry& geometry, LoadTerms& terms) {
   const double most_kg = fill_kg(geometry);
   set_term(kLoadTerm, most_kg, 4.0 * most_kg, terms);
-  set_term(kOutwardTerm, 0.0, 2.0 * kOutwardSd_m * most_kg, terms);
+  set_term(kOutwardTerm, 0.0, 2.0 * kLoadOutwardSd_m * most_kg, terms);
 }
 
 bool is_weighed(const ExcavatorGeometry& geometry, const LoadObserver& observer) {
-  const double least_kg = kTold * fill_kg(geometry);
-  return observer.weighed >= kWeighed && observer.terms.variance(kLoadTerm) < least_kg * least_kg;
+  const double least_kg = kPayloadToldSd * fill_kg(geometry);
+  return observer.weighed >= kPayloadReadings &&
+         observer.terms.variance(kLoadTerm) < least_kg * least_kg;
 }
 
 void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& observer) {
@@ -78,20 +44,20 @@ void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& obs
   LoadTerms& terms = observer.terms;
   switch (phase) {
     case LoadPhase::kEmpty:
-      set_term(kLoadTerm, 0.0, kEmptySd_kg, terms);
-      set_term(kOutwardTerm, 0.0, kEmptySd_kg, terms);
+      set_term(kLoadTerm, 0.0, kEmptyPayloadSd_kg, terms);
+      set_term(kOutwardTerm, 0.0, kEmptyPayloadSd_kg, terms);
       break;
     case LoadPhase::kCarries:
       forget_load(geometry, terms);
       break;
     case LoadPhase::kHangs:
-      set_term(kLoadTerm, 0.0, kHangs * most_kg, terms);
-      set_term(kOutwardTerm, 0.0, kOutwardSd_m * most_kg, terms);
+      set_term(kLoadTerm, 0.0, kHangingFill * most_kg, terms);
+      set_term(kOutwardTerm, 0.0, kLoadOutwardSd_m * most_kg, terms);
       break;
     case LoadPhase::kUnsaid:
       if (observer.phase.kind == StepKind::kNone) {
         set_term(kLoadTerm, 0.0, most_kg, terms);
-        set_term(kOutwardTerm, 0.0, kOutwardSd_m * most_kg, terms);
+        set_term(kOutwardTerm, 0.0, kLoadOutwardSd_m * most_kg, terms);
       }
       break;
     case LoadPhase::kDigs:  // See expect_fill().
@@ -102,7 +68,7 @@ void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& obs
     observer.last_fill_kg = std::max(0.0, terms.value[kLoadTerm]);
     observer.poured_kg += observer.last_fill_kg;
     observer.phase.heap_m =
-        std::min(kHeap * cube_root(observer.poured_kg / kLoose_kgpm3), kHeapMost_m);
+        std::min(kHeap * cube_root(observer.poured_kg / kLooseSoil_kgpm3), kHeapMost_m);
   }
   observer.weighed = 0;
   observer.refused = 0;
@@ -112,13 +78,14 @@ void enter(LoadPhase phase, const ExcavatorGeometry& geometry, LoadObserver& obs
 }
 
 void add(const LoadBalance& balance, BalanceBlock& block) {
+  /// Weight of a cycle in its block's mean. [-; derived: kLoadBlock cycles weigh alike]
   constexpr double kShare = 1.0 / kLoadBlock;
   block.force_n += kShare * balance.force_n;
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     for (unsigned place = 0; place < TermRow::kCount; ++place) {
       block.row[axis].share[place] += kShare * balance.row[axis].share[place];
     }
-    block.steady[axis] = std::abs(block.row[axis].share[1]) > kSteady;
+    block.steady[axis] = std::abs(block.row[axis].share[1]) > kSteadySide;
   }
 }
 
@@ -140,19 +107,19 @@ SeenForce seen_of(const ExcavatorProfile& profile, int axis, const LoadObserver&
   const double noise = noise_n(profile, axis);
   const double off_n = kLeverOff * block.force_n[axis];
   return {block.row[k], block.force_n[axis],
-          kAlike * (noise * noise / kLoadBlock + off_n * off_n) +
-              (block.steady[k] ? 0.0 : kStands * coulomb_n * coulomb_n)};
+          kBlocksAlike * (noise * noise / kLoadBlock + off_n * off_n) +
+              (block.steady[k] ? 0.0 : kStandingFriction * coulomb_n * coulomb_n)};
 }
 
 /// Where one axis says that something touches the bucket, none of the block is learnt.
 void judge_axis(const ExcavatorProfile& profile, int axis, LoadObserver& observer) {
-  if (!is_likely(axis, seen_of(profile, axis, observer), kGate, observer.terms)) {
+  if (!is_likely(axis, seen_of(profile, axis, observer), kTouchDeviations, observer.terms)) {
     observer.full_phase = LoadPhase::kUnsaid;
     ++observer.refused;
   } else if (axis == kBucket) {
     observer.refused = 0;
   }
-  if (observer.refused == kRefusedMost && observer.phase.phase == LoadPhase::kCarries) {
+  if (observer.refused == kPayloadRefusedMost && observer.phase.phase == LoadPhase::kCarries) {
     forget_load(profile.geometry, observer.terms);
     observer.refused = 0;
     observer.weighed = 0;
@@ -188,7 +155,7 @@ void find_gains(const LoadBalance& balance, LoadGains& gains) {
   const Eigen::Matrix<double, 2, kAxisCount> weighted =
       balance.teeth.transpose() * open_n2.inverse();
   Eigen::Matrix2d told = weighted * balance.teeth;
-  told.diagonal().array() += 1.0 / (kForce_n * kForce_n);
+  told.diagonal().array() += 1.0 / (kGroundForceSd_n * kGroundForceSd_n);
   const Eigen::Matrix2d left_n2 = told.inverse();
   gains.force = -left_n2 * weighted;
   gains.force_sd_n = std::sqrt(0.5 * left_n2.trace());
@@ -199,9 +166,9 @@ void expect_fill(const ExcavatorProfile& profile, double share, LoadObserver& ob
   const double guess_kg = fill_kg(profile.geometry);
   const double full_kg = observer.last_fill_kg > 0.0 ? observer.last_fill_kg : guess_kg;
   const double done = observer.phase.kind == StepKind::kDig ? share : 1.0;
-  set_term(kLoadTerm, done * full_kg, kFillOff * guess_kg + kFullOff * done * full_kg,
+  set_term(kLoadTerm, done * full_kg, kFillGuessOff * guess_kg + kFillSoFarOff * done * full_kg,
            observer.terms);
-  set_term(kOutwardTerm, 0.0, kFillOff_m * guess_kg, observer.terms);
+  set_term(kOutwardTerm, 0.0, kFillOutwardSd_m * guess_kg, observer.terms);
 }
 
 /// What one axis tells of the last block: first each is judged, then each is learnt.
@@ -219,6 +186,7 @@ void work_on_block(const ExcavatorProfile& profile, int piece, LoadObserver& obs
 /// A piece in each cycle of a block: what is learnt, then the gains that follow from it.
 void work(const ExcavatorProfile& profile, const LoadBalance& balance, double share,
           LoadObserver& observer) {
+  /// First piece of the gains. [-; derived: each axis has one of judging and one of learning]
   constexpr int kOpen = 2 * kAxisCount;
   const int piece = observer.cycle;
   if (piece == kOpen && observer.phase.phase == LoadPhase::kDigs) {
@@ -241,7 +209,7 @@ void tell(const ExcavatorProfile& profile, const LoadBalance& balance, LoadObser
   TipLoad& told = observer.told;
   told.known = observer.gains.force_sd_n > 0.0;
   told.force_n = observer.gains.force * left_n;
-  told.force_sd_n = std::hypot(observer.gains.force_sd_n, kForceOff * told.force_n.norm());
+  told.force_sd_n = std::hypot(observer.gains.force_sd_n, kTipForceOff * told.force_n.norm());
   const LoadPhase phase = observer.phase.phase;
   told.payload_known = phase == LoadPhase::kEmpty ||
                        (phase == LoadPhase::kCarries && is_weighed(profile.geometry, observer));

@@ -14,9 +14,10 @@
 
 namespace graben {
 
-/// Cycles whose balances are averaged before the terms are learnt from them; what that costs is
-/// spread over the next ones.
-inline constexpr int kLoadBlock = 10;
+/// Cycles whose balances are averaged before the terms are learnt from them, which is spread over
+/// the next ones. [cycles; derived: each axis judged, learnt, looked at for the gains, and the
+/// gains]
+inline constexpr int kLoadBlock = 3 * kAxisCount + 1;
 
 /// Mean of the balances of a few cycles.
 struct BalanceBlock {

@@ -4,26 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/estimation/load/tuning.hpp"
 #include "firmware/numeric/triangle.hpp"
 
 namespace graben {
 namespace {
-
-constexpr double kFreeAbove_m = 0.5;
-/// Over the ground that the machine stands on: slopes are lower.
-constexpr double kClear_m = 0.4;
-/// Attitude beyond which the opening looks down; and that from which on soil may fall out.
-constexpr double kOpen_rad = 1.75;
-constexpr double kSpills_rad = 0.8;
-/// Beyond this little stays in.
-constexpr double kSteep_rad = 1.2;
-constexpr double kPoured_s = 1.5;
-/// Of a move that ends at the ground; higher up it is clear of it all the same.
-constexpr double kNearGround = 0.85;
-constexpr double kHigh_m = 0.8;
-/// A heap's sides, which begin so far from its middle; the gentlest of them.
-constexpr double kHeapTop_m = 0.5;
-constexpr double kHeapFalls = 0.6;
 
 /// Height of the heap below the teeth: of no account which way the platform looks.
 double heap_below_m(const TipPose& tip, const PhaseState& state) {
@@ -44,19 +29,20 @@ LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, double heigh
       if (state.open_s > kPoured_s) {
         return LoadPhase::kEmpty;
       }
-      return state.phase == LoadPhase::kCarries && tip.attitude_rad < kSpills_rad
+      return state.phase == LoadPhase::kCarries && tip.attitude_rad < kSoilSpills_rad
                  ? LoadPhase::kCarries
                  : LoadPhase::kPours;
     case StepKind::kApproach:
     case StepKind::kReturnToDig:
-      if ((share > kNearGround && height_m < kHigh_m) ||
-          height_m < std::max(kClear_m, heap_below_m(tip, state))) {
+      if ((share > kMoveNearGround && height_m < kMoveEndClear_m) ||
+          height_m < std::max(kGroundClear_m, heap_below_m(tip, state))) {
         return LoadPhase::kUnsaid;
       }
       if (state.open_s > kPoured_s || state.phase == LoadPhase::kEmpty) {
         return LoadPhase::kEmpty;
       }
-      return kind == StepKind::kApproach && state.open_s == 0.0 && tip.attitude_rad > kSteep_rad
+      return kind == StepKind::kApproach && state.open_s == 0.0 &&
+                     tip.attitude_rad > kLittleStays_rad
                  ? LoadPhase::kHangs
                  : LoadPhase::kPours;
     case StepKind::kWait:
@@ -73,14 +59,14 @@ LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, double heigh
 void next_phase(StepKind kind, double share, const TipPose& tip, double ground_m, double period_s,
                 PhaseState& state) {
   const double height_m = tip.y_m - ground_m;
-  const bool open = std::abs(wrap_near(tip.attitude_rad, 0.0)) > kOpen_rad;
+  const bool open = std::abs(wrap_near(tip.attitude_rad, 0.0)) > kOpeningDown_rad;
   state.open_s = open ? std::min(state.open_s + period_s, 2.0 * kPoured_s) : 0.0;
   if (kind != state.kind) {
     state.kind = kind;
     state.lifted_from_m = tip.y_m;
     state.free_s = 0.0;
   }
-  if (height_m > kClear_m && tip.y_m > state.lifted_from_m + kFreeAbove_m) {
+  if (height_m > kGroundClear_m && tip.y_m > state.lifted_from_m + kLiftFree_m) {
     state.free_s += period_s;
   }
   const LoadPhase before = state.phase;

@@ -3,22 +3,17 @@
 
 #include <cmath>
 
+#include "firmware/excavator/estimation/load/tuning.hpp"
+
 namespace graben {
 namespace {
 
-/// Deviation of a transducer's offset, of its range.
-constexpr double kOffset = 0.0175;
-/// Seals of cylinders: force over cap area. Hardly any machine's is known; it is learnt.
-constexpr double kCoulomb_pa = 0.2e6;
-constexpr double kViscous_paspm = 0.9e6;
-/// Hoses of the class between transducer and chamber: Pa s/m3, and Pa s2/m6. Computed for 4 m of an
-/// inch with six bends (loss coefficient 0.8 each) and oil of 46 mm2/s, 870 kg/m3: 0.06 MPa at 100
-/// L/min, 0.20 at 200, by Blasius' and Darcy's law.
+/// Loss of pressure in a hose of the class per flow. [Pa s/m3; derived: 4 m of an inch, oil of 46
+/// mm2/s and 870 kg/m3, Blasius: with kHose_pas2pm6 0.06 MPa at 100 L/min, 0.20 at 200]
 constexpr double kHose_paspm3 = 1.2e7;
+/// Loss of pressure in a hose of the class per square of flow. [Pa s2/m6; derived: the same hose
+/// with six bends, loss coefficient 0.8 each, Darcy]
 constexpr double kHose_pas2pm6 = 1.45e10;
-constexpr double kFrictionOff = 0.35;
-constexpr double kViscousOff = 0.6;
-constexpr double kMassOff = 0.1;
 
 int term_of(int axis, int place) {
   switch (place) {
@@ -44,7 +39,7 @@ double sum_of_powers(const CylinderGeometry& cylinder, int power) {
 }
 
 double viscous_nspm(const CylinderGeometry& cylinder) {
-  return kViscous_paspm * cylinder.cap_area_m2() + kHose_paspm3 * sum_of_powers(cylinder, 2);
+  return kSealViscous_paspm * cylinder.cap_area_m2() + kHose_paspm3 * sum_of_powers(cylinder, 2);
 }
 
 using Column = std::array<double, kTermCount>;
@@ -88,14 +83,14 @@ LoadTerms terms_unseen(const ExcavatorProfile& profile) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const CylinderGeometry& cylinder = profile.geometry.cylinder[static_cast<unsigned>(axis)];
     const double cap_m2 = cylinder.cap_area_m2();
-    const double offset_n =
-        kOffset * profile.safety.pressure_rail_pa * std::hypot(cap_m2, cylinder.rod_area_m2());
-    const double coulomb_n = kCoulomb_pa * cap_m2;
+    const double offset_n = kTransducerOffset * profile.safety.pressure_rail_pa *
+                            std::hypot(cap_m2, cylinder.rod_area_m2());
+    const double coulomb_n = kSealCoulomb_pa * cap_m2;
     const double slows_nspm = viscous_nspm(cylinder);
     set_term(kOffsetTerm + axis, 0.0, offset_n, terms);
-    set_term(kCoulombTerm + axis, coulomb_n, kFrictionOff * coulomb_n, terms);
+    set_term(kCoulombTerm + axis, coulomb_n, kSealCoulombOff * coulomb_n, terms);
     set_term(kViscousTerm + axis, slows_nspm, kViscousOff * slows_nspm, terms);
-    set_term(kMassTerm + axis, 0.0, kMassOff, terms);
+    set_term(kMassTerm + axis, 0.0, kLinkMassOff, terms);
   }
   return terms;
 }

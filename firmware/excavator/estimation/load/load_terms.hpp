@@ -11,18 +11,29 @@
 
 namespace graben {
 
-/// Places of the terms; of an axis or link each, in their order.
-inline constexpr int kOffsetTerm = 0;    ///< Of the pressures, as a force, N.
-inline constexpr int kCoulombTerm = 3;   ///< Friction, N.
-inline constexpr int kViscousTerm = 6;   ///< Of seals and hoses, N s/m.
-inline constexpr int kMassTerm = 9;      ///< What a link weighs more, of its mass.
-inline constexpr int kLoadTerm = 12;     ///< What the bucket carries, kg.
-inline constexpr int kOutwardTerm = 13;  ///< How much farther outwards it lies, kg m.
-inline constexpr int kTermCount = 14;
+// Places of the terms; of an axis or link each, in their order.
+
+/// First offset of the pressures, as a force in N. [-; size: the terms begin with it]
+inline constexpr int kOffsetTerm = 0;
+/// First Coulomb friction, N. [-; derived: after an offset for each axis]
+inline constexpr int kCoulombTerm = kOffsetTerm + kAxisCount;
+/// First viscous friction of seals and hoses, N s/m. [-; derived: after a Coulomb friction for each
+/// axis]
+inline constexpr int kViscousTerm = kCoulombTerm + kAxisCount;
+/// First excess of a link's mass, as a share of it. [-; derived: after a viscous friction for each
+/// axis]
+inline constexpr int kMassTerm = kViscousTerm + kAxisCount;
+/// Payload of the bucket, kg. [-; derived: after a mass for each link]
+inline constexpr int kLoadTerm = kMassTerm + kAxisCount;
+/// Moment by which the payload lies farther outwards, kg m. [-; derived: after the payload]
+inline constexpr int kOutwardTerm = kLoadTerm + 1;
+/// Number of terms. [-; derived: kOutwardTerm is the last]
+inline constexpr int kTermCount = kOutwardTerm + 1;
 
 /// How an axis' missing force depends on the terms; on those of other axes not at all.
 struct TermRow {
-  static constexpr int kCount = 8;
+  /// Terms in a row. [-; derived: offset, Coulomb, viscous, a mass for each link, load, outwards]
+  static constexpr int kCount = 3 + kAxisCount + 2;
   std::array<double, kCount> share{};  ///< Offset, Coulomb, viscous, three links, load, outwards.
 };
 
@@ -42,8 +53,8 @@ struct LoadTerms {
 /// viscous term: v (1 + |v| / this). Hoses lose more than in proportion.
 [[nodiscard]] double hoses_mps(const CylinderGeometry& cylinder);
 
-/// Before anything is seen. Transducers are off by 2 % of their range, as deviation; friction is
-/// what seals of the class have, masses are right within a tenth.
+/// Before anything is seen: friction is what seals of the class have; deviations are those of
+/// tuning.hpp.
 [[nodiscard]] LoadTerms terms_unseen(const ExcavatorProfile& profile);
 
 /// The term is this from now on, with this deviation, whatever it was.

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/estimation/load/tuning.hpp"
 
 namespace graben {
 
@@ -16,11 +16,8 @@ struct PairedFilter {
   Eigen::Vector3d change_ps2 = Eigen::Vector3d::Zero();  ///< Of the rate.
 };
 
-/// Corner; the lag is 2 damping / corner, 47 ms. Slower, it would miss how soil's force changes;
-/// faster, the transducers' noise would be the larger part of what is left.
-inline constexpr double kPairedCorner_radps = 30.0;
-inline constexpr double kPairedDamping = 0.7;
-/// Its noise over that of a white reading every 10 ms, as deviations: sqrt(corner T / (4 damping)).
+/// Noise behind the low-pass over that of a white reading every 10 ms, as deviations. [-; derived:
+/// sqrt(kPairedCorner_radps kCyclePeriod_s / (4 kPairedDamping))]
 inline constexpr double kPairedNoise = 0.33;
 
 inline void begin(const Eigen::Vector3d& seen, PairedFilter& filter) {
