@@ -4,15 +4,10 @@
 #include <algorithm>
 
 #include "firmware/core/time.hpp"
+#include "firmware/excavator/estimation/oil/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// Of the observer's load, and of the push of the path, whose corners are steps.
-constexpr double kLoad_s = 0.1;
-constexpr double kPush_s = 0.03;
-/// Of the oil's weight, from which on its law decides.
-constexpr double kLeads = 0.5;
 
 double share_of_newest(double lag_s, double time_s) { return time_s / (time_s + lag_s); }
 
@@ -22,7 +17,7 @@ void next_held_load(const OilState& oil, const Eigen::Vector2d& due_mps,
                     const Eigen::Matrix2d& inertia_kg, int cycles, HeldLoad& held) {
   const double time_s = kCyclePeriod_s * cycles;
   held.gives_way = oil.weight > 0.0 && (held.gives_way || !held.yield_mpsn.isZero(0.0));
-  held.leads = held.gives_way && oil.weight > kLeads;
+  held.leads = held.gives_way && oil.weight > kOilLeads;
   if (!held.gives_way) {
     held.due_mps = due_mps;
     held.push_mps2.setZero();
@@ -31,8 +26,8 @@ void next_held_load(const OilState& oil, const Eigen::Vector2d& due_mps,
   }
   const Eigen::Vector2d push_mps2 = (due_mps - held.due_mps) / time_s;
   held.due_mps = due_mps;
-  held.push_mps2 += share_of_newest(kPush_s, time_s) * (push_mps2 - held.push_mps2);
-  held.load_n += share_of_newest(kLoad_s, time_s) * (-oil.load_n - held.load_n);
+  held.push_mps2 += share_of_newest(kHeldPush_s, time_s) * (push_mps2 - held.push_mps2);
+  held.load_n += share_of_newest(kHeldLoad_s, time_s) * (-oil.load_n - held.load_n);
   held.force_n = held.load_n + inertia_kg * held.push_mps2;
 }
 

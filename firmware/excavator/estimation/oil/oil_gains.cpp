@@ -6,16 +6,13 @@
 
 #include "firmware/core/time.hpp"
 #include "firmware/excavator/estimation/oil/oil_cycle.hpp"
+#include "firmware/excavator/estimation/oil/tuning.hpp"
 
 namespace graben {
 namespace {
 
-/// Each doubles the steps that the Riccati equation has been taken: 1024 of them, 10 s.
+/// Doublings of the steps that the Riccati equation is taken. [-; size: 1024 steps, 10 s]
 constexpr int kDoublings = 10;
-/// What rounding and friction make of a travel, a speed, a compression in a cycle: enough to keep
-/// the equations regular.
-constexpr double kLeastTravel_m2 = 1e-12;
-constexpr double kLeastSpeed_m2ps2 = 1e-10;
 
 using Vector5 = Eigen::Matrix<double, ModeGains::kStates, 1>;
 using Matrix5 = Eigen::Matrix<double, ModeGains::kStates, ModeGains::kStates>;
@@ -107,8 +104,8 @@ Eigen::Matrix<double, ModeGains::kStates, 2> observer_of(const OilDesign& design
       1.0 - turn.cosine;
   step.row(2) << 0.0, -late_s, turn.cosine, turn.cosine - 1.0, late_s;
   Vector5 drift;
-  drift << kLeastTravel_m2, kLeastSpeed_m2ps2, kLeastSpeed_m2ps2, kCyclePeriod_s * design.load_m2ps,
-      kCyclePeriod_s * design.flow_m2ps3;
+  drift << kOilTravelDrift_m2, kOilSpeedDrift_m2ps2, kOilSpeedDrift_m2ps2,
+      kCyclePeriod_s * design.load_m2ps, kCyclePeriod_s * design.flow_m2ps3;
   Eigen::Matrix<double, 2, ModeGains::kStates> seen;
   seen << 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0;
   const Eigen::Matrix2d noise = Eigen::Vector2d(design.travel_noise_m * design.travel_noise_m,
@@ -128,14 +125,14 @@ ModeGains mode_gains(const OilDesign& design, double omega_radps) {
 
 OilGains::OilGains(const OilDesign& design) : lag_s_(design.lag_s) {
   for (int n = 0; n < kKnots; ++n) {
-    const double root = kLeastRoot + (kMostRoot - kLeastRoot) * n / (kKnots - 1);
+    const double root = kOilLeastRoot + (kOilMostRoot - kOilLeastRoot) * n / (kKnots - 1);
     knot_[static_cast<unsigned>(n)] = mode_gains(design, root * root);
   }
 }
 
 ModeGains OilGains::at(double omega_radps) const {
-  const double root = std::clamp(std::sqrt(omega_radps), kLeastRoot, kMostRoot);
-  const double place = (kKnots - 1) * (root - kLeastRoot) / (kMostRoot - kLeastRoot);
+  const double root = std::clamp(std::sqrt(omega_radps), kOilLeastRoot, kOilMostRoot);
+  const double place = (kKnots - 1) * (root - kOilLeastRoot) / (kOilMostRoot - kOilLeastRoot);
   const int low = std::clamp(static_cast<int>(place), 0, kKnots - 2);
   const double share = place - low;
   const ModeGains& below = knot_[static_cast<unsigned>(low)];

@@ -11,6 +11,8 @@ namespace graben {
 /// Of a mode with the frequency that the profile makes of it. Lengths and speeds of the mode, see
 /// OilModes; compression is force over stiffness.
 struct ModeGains {
+  /// States of a mode. [-; size: travel, speed, the oil's balance, two lags; or, observed, travel,
+  /// speed, compression, load, flow error]
   static constexpr int kStates = 5;
   /// Speed to ask for, per travel (1/s), speed (1), missing balance of the oil (1/s), and the two
   /// lags between a command and its flow (1).
@@ -40,9 +42,8 @@ struct OilDesign {
 /// Looked up, linear in the frequency's root; beyond its ends, 4 and 196 rad/s, the last value.
 class OilGains {
  public:
+  /// Frequencies in the table. [-; size: evenly over the root, kOilLeastRoot to kOilMostRoot]
   static constexpr int kKnots = 12;
-  static constexpr double kLeastRoot = 2.0;
-  static constexpr double kMostRoot = 14.0;
 
   /// All gains 0: for a machine that does not use them.
   OilGains() = default;

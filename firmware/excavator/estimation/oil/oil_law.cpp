@@ -5,14 +5,10 @@
 
 #include "firmware/core/time.hpp"
 #include "firmware/excavator/estimation/oil/oil_cycle.hpp"
+#include "firmware/excavator/estimation/oil/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// More than this no valve is off.
-constexpr double kFlowErrorMost_mps = 0.08;
-/// Of the weight.
-constexpr double kHandOver_ps = 2.0;
 
 void advance(double newest, double asked_mps, TwoLags& lags) {
   lags.first_mps += newest * (asked_mps - lags.first_mps);
@@ -75,7 +71,7 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
     return;
   }
   const double time_s = kCyclePeriod_s * seen.cycles;
-  const double step = kHandOver_ps * time_s;
+  const double step = kOilHandOver_ps * time_s;
   state.weight = std::clamp(state.weight + (leads ? step : -step), 0.0, 1.0);
   const Eigen::Vector2d kept_mps = state.flow_error_mps;
   const Eigen::Vector2d asked_mps =
@@ -116,7 +112,7 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
   state.force_n = modes.stiffness_npm.cwiseProduct(modes.shape * oil);
   state.load_n = modes.stiffness_npm.cwiseProduct(modes.shape * load);
   const Eigen::Vector2d error_mps =
-      (modes.shape * error).cwiseMax(-kFlowErrorMost_mps).cwiseMin(kFlowErrorMost_mps);
+      (modes.shape * error).cwiseMax(-kOilFlowErrorMost_mps).cwiseMin(kOilFlowErrorMost_mps);
   state.flow_error_mps = seen.stands.select(kept_mps, error_mps);
 }
 

@@ -4,23 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/estimation/oil/tuning.hpp"
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
 
-/// A chamber with less than this holds the less the emptier it is, down to a share that keeps the
-/// sum above 0.
-constexpr double kEmpty_pa = 1.2e6;
-constexpr double kLeastShare = 0.2;
-
-constexpr double kGravity_mps2 = 9.81;
-/// From the boom's pin: nearer, its cylinder says little of what is carried.
-constexpr double kLeastReach_m = 2.0;
-constexpr double kMostPayload_kg = 2000.0;
-/// Modes that are too slow do less harm than modes that are too fast.
-constexpr double kHeavier = 1.6;
-
 double full_share(double pressure_pa) {
-  return std::clamp(pressure_pa / kEmpty_pa, kLeastShare, 1.0);
+  return std::clamp(pressure_pa / kOilEmpty_pa, kOilEmptyShare, 1.0);
 }
 
 double cross(const Eigen::Vector2d& a, double angle_rad, const Eigen::Vector2d& b) {
@@ -48,9 +39,9 @@ double payload_kg(const OilProfile& oil, const ExcavatorGeometry& geometry,
       oil.link[kArm].mass_kg * (arm_pin_m + cross(along, arm_rad, oil.link[kArm].centre_m)) +
       oil.link[kBucket].mass_kg * bucket_m;
   const double turn_radpm = now.jacobian(2, kBoom);
-  const double carried_kgm = boom_force_n / (kGravity_mps2 * turn_radpm) - moment_kgm;
-  return bucket_m > kLeastReach_m
-             ? std::clamp(kHeavier * carried_kgm / bucket_m, 0.0, kMostPayload_kg)
+  const double carried_kgm = boom_force_n / (kRoundedGravity_mps2 * turn_radpm) - moment_kgm;
+  return bucket_m > kWeighedReach_m
+             ? std::clamp(kWeighedHeavier * carried_kgm / bucket_m, 0.0, kWeighedMost_kg)
              : 0.0;
 }
 

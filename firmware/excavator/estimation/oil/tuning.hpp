@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Numbers that were chosen for the oil's observer and law, each with why: the modes, their gains,
+/// what the law may do, and the load that spools are opened for.
+
+namespace graben {
+
+// Modes of boom and arm on their oil, and the payload in them (oil_modes.cpp)
+
+/// Pressure of a chamber below which its oil counts the less, the emptier it is. [Pa; chosen: not
+/// tried]
+inline constexpr double kOilEmpty_pa = 1.2e6;
+/// Least share that the oil of an empty chamber counts. [-; chosen: keeps the stiffness above 0;
+/// not tried]
+inline constexpr double kOilEmptyShare = 0.2;
+/// Reach from the boom's pin to the bucket below which no payload is weighed. [m; chosen: nearer,
+/// the boom's cylinder says little of it; not tried]
+inline constexpr double kWeighedReach_m = 2.0;
+/// Greatest payload in the modes. [kg; chosen: not tried]
+inline constexpr double kWeighedMost_kg = 2000.0;
+/// Factor on the weighed payload. [-; chosen: friction and transducers may hide a third of it, and
+/// too slow a mode does less harm than too fast a one; not tried]
+inline constexpr double kWeighedHeavier = 1.6;
+
+// Gains of observer and feedback (oil_gains.cpp)
+
+/// Variance that rounding and friction add to a travel in a cycle. [m2; chosen: keeps the Riccati
+/// equation regular; not tried]
+inline constexpr double kOilTravelDrift_m2 = 1e-12;
+/// Variance that they add to a speed in a cycle; as a number also to a compression. [m2/s2; chosen:
+/// keeps the Riccati equation regular; not tried]
+inline constexpr double kOilSpeedDrift_m2ps2 = 1e-10;
+/// Root of the lowest frequency in the table of gains, 4 rad/s. [-; chosen: not tried]
+inline constexpr double kOilLeastRoot = 2.0;
+/// Root of the highest frequency in the table of gains, 196 rad/s. [-; chosen: not tried]
+inline constexpr double kOilMostRoot = 14.0;
+
+// Law (oil_law.cpp)
+
+/// Greatest flow error of a valve, as a speed. [m/s; chosen: no valve is farther off; not tried]
+inline constexpr double kOilFlowErrorMost_mps = 0.08;
+/// Rate at which the law takes over from the servo and gives back. [1/s; chosen: half a second; not
+/// tried]
+inline constexpr double kOilHandOver_ps = 2.0;
+
+// Load that spools are opened for (held_load.cpp)
+
+/// Time constant of the observer's load. [s; chosen: not tried]
+inline constexpr double kHeldLoad_s = 0.1;
+/// Time constant of the path's push. [s; chosen: the path's corners are steps; not tried]
+inline constexpr double kHeldPush_s = 0.03;
+/// Weight of the oil's law over the servo above which it decides. [-; chosen: not tried]
+inline constexpr double kOilLeads = 0.5;
+
+}  // namespace graben
