@@ -2,12 +2,10 @@
 #include "firmware/excavator/estimation/estimate.hpp"
 
 #include "firmware/excavator/estimation/load/assumed_load.hpp"
+#include "firmware/excavator/estimation/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// Of what is measured in a cycle at rest.
-constexpr double kWeighs = 0.02;
 
 /// What comes late is foretold over 20 ms, and shows no more of 10 Hz and beyond: with the feedback
 /// of strokes one machine of twenty rings.
@@ -57,7 +55,7 @@ void weigh(const ExcavatorProfile& profile, const OilSeen& seen, EcuMode mode,
   }
   const double measured_kg =
       payload_kg(profile.oil, profile.geometry, state.pose, seen.force_n[kBoom]);
-  state.payload_kg += kWeighs * (measured_kg - state.payload_kg);
+  state.payload_kg += kPayloadWeight * (measured_kg - state.payload_kg);
 }
 
 void estimate_oil(const ExcavatorModel& machine, const OilGains& gains, const ExcavatorValid& valid,

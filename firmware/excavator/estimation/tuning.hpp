@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Numbers that were chosen for the excavator's estimates, each with why. Those of its loads and of
+/// its oil are in `load` and `oil`.
+
+namespace graben {
+
+/// Share of a cycle's payload at rest that goes into the weighed one. [-; chosen: half a second of
+/// low-pass; not tried]
+inline constexpr double kPayloadWeight = 0.02;
+
+}  // namespace graben
