@@ -4,13 +4,10 @@
 #include <cmath>
 
 #include "firmware/hydraulics/flow.hpp"
+#include "firmware/mcv/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// A pump flow below this share of what the cylinders move counts as none where lambda is looked
-/// for over r: it would be all rounding. The exact circuit still decides what is returned.
-constexpr double kLeastFlowShare = 1e-9;
 
 CircuitAxis make_axis(const McvActuator& actuator, double velocity_mps, double cap_pa,
                       double rod_pa) {
@@ -85,7 +82,7 @@ FlowBalance make_line(const McvMachine& machine, const PerActuator<CircuitAxis>&
           axis.q_out_m3ps, axis.c_drain, axis.c_check, axis.opening};
     }
   }
-  line.ratio_flow_m3ps = pump_flow_m3ps >= kLeastFlowShare * moved_m3ps ? pump_flow_m3ps : 0.0;
+  line.ratio_flow_m3ps = pump_flow_m3ps >= kStarvedFlowShare * moved_m3ps ? pump_flow_m3ps : 0.0;
   // A line with nothing in its bypass holds no pressure; only a pump without spools can be one.
   line.bypass = bypass_resistance > 0.0 ? 1.0 / std::sqrt(bypass_resistance) : 0.0;
   return line;

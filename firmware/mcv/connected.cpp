@@ -6,8 +6,9 @@
 namespace graben {
 namespace {
 
-/// Of the interval that is halved.
-constexpr double kWidth = 1.0 / 1073741824.0;  // 2^-30
+/// Width to halve an interval down to, as a share of its upper end: 2^-30. [-; derived: what all
+/// halvings of halved() leave of [0, 1]]
+constexpr double kWidth = 1.0 / 1073741824.0;
 
 /// Lowers `start` to where the constraint first fails on the way up from `slow`.
 void hold(const McvCircuit& circuit, const McvPoint& slow, const McvPoint& fastest,

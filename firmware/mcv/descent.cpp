@@ -3,12 +3,16 @@
 
 #include <algorithm>
 
+#include "firmware/mcv/tuning.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
 
+/// Turns from one of an axis' two constraints to the other. [-; size: at the cap the caller's check
+/// decides]
 constexpr int kTurns = 8;
+/// Halvings of an interval at most. [-; size: they leave 2^-30 of it]
 constexpr int kHalvings = 30;
 
 /// lambda at r; 0 where only standstill belongs to it.
@@ -24,8 +28,8 @@ Requirement requirement_of(const CircuitAxis& axis, const Limit& limit) {
 /// r of a stagnant line while its relief valve is closed, a little to the left of where 1 / lambda
 /// jumps to infinity.
 double stagnant_ratio(const FlowBalance& line) {
-  constexpr double kInside = 1.0 - 1e-9;
-  return kInside * solve_pump_pressure(line, kStandstillLambda).sqrt_pressure / kStandstillLambda;
+  return kStagnantInside * solve_pump_pressure(line, kStandstillLambda).sqrt_pressure /
+         kStandstillLambda;
 }
 
 /// Past `ratio` of a stagnant line r stays what it is.

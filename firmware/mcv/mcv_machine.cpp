@@ -20,6 +20,7 @@ double full_opening_velocity_coefficient(const SpoolMetering& metering, double s
 }
 
 MonotoneTable velocity_coefficient_table(const SpoolMetering& metering, double coefficient_full) {
+  /// Points of the table. [-; size: all that it has room for]
   constexpr int kPoints = MonotoneTable::capacity();
   std::array<double, kPoints> travel{};
   std::array<double, kPoints> coefficient{};

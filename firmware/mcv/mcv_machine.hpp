@@ -12,8 +12,12 @@
 
 namespace graben {
 
+/// Actuators that a valve may have. [-; derived: one for each drive of a machine, kMostDrives]
 inline constexpr int kMaxActuators = kMostDrives;
+/// Pumps that a valve may have. [-; size: one more than Kim's machine]
 inline constexpr int kMaxPumps = 3;
+/// Fixed orifices in a bypass line that files of valves may list. [-; size: room in a list; their
+/// resistances are summed]
 inline constexpr int kMaxBypassSeries = 8;
 
 template <class T>

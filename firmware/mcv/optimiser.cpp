@@ -5,12 +5,10 @@
 #include <cmath>
 
 #include "firmware/mcv/regulated.hpp"
+#include "firmware/mcv/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// c_L beyond which a shortfall of travel is not told apart, as a multiple of the table's last.
-constexpr double kMostCoefficients = 16.0;
 
 PolicyResult choose(const Asked& asked, McvPolicy policy) {
   if (policy == McvPolicy::kFixed) {
@@ -22,10 +20,6 @@ PolicyResult choose(const Asked& asked, McvPolicy policy) {
   }
   return policy == McvPolicy::kConnected ? choose_connected(asked) : choose_global(asked);
 }
-
-/// Of what an axis has left over at standstill, (43), the reserve takes at most this share: an axis
-/// that can hardly start still starts, and the reserve of the others stays what it is.
-constexpr double kMostReserveShare = 0.5;
 
 /// What the reserve adds to the load of each axis.
 PerActuator<double> reserves_n(const McvCircuit& circuit, double reserve_n) {
@@ -95,8 +89,8 @@ double travel_for(const MonotoneTable& table, double coefficient) {
   const int last = table.size() - 1;
   const double per_coefficient =
       (table.x(last) - table.x(last - 1)) / (table.y(last) - table.y(last - 1));
-  const double over = std::min(coefficient, kMostCoefficients * table.y_last()) - table.y_last();
-  return std::min(table.x_last() + over * per_coefficient, kMostCoefficients * table.x_last());
+  const double over = std::min(coefficient, kShortfallMost * table.y_last()) - table.y_last();
+  return std::min(table.x_last() + over * per_coefficient, kShortfallMost * table.x_last());
 }
 
 /// P -> 0 stands for a pump that can't feed its line at all.
@@ -218,13 +212,6 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
   return solution;
 }
 
-namespace {
-
-/// What the first cycle from rest may reach, whatever its period.
-constexpr double kLeastBound = 1e-3;
-
-}  // namespace
-
 McvInput mcv_input(Span<const double> velocity_mps, Span<const LoadState> load,
                    Span<const double> pump_flow_m3ps) {
   McvInput input;
@@ -240,8 +227,8 @@ McvInput mcv_input(Span<const double> velocity_mps, Span<const LoadState> load,
 
 McvSolution steady_lambda(const McvMachine& machine, const McvInput& input, McvPolicy policy,
                           const LambdaRise& rise, double last_lambda, double period_s) {
-  const double bound = std::clamp(last_lambda + rise.rate_ps * period_s, kLeastBound, 1.0);
-  const double hold = last_lambda > 0.0 ? std::clamp(last_lambda, kLeastBound, 1.0) : 0.0;
+  const double bound = std::clamp(last_lambda + rise.rate_ps * period_s, kFirstLambda, 1.0);
+  const double hold = last_lambda > 0.0 ? std::clamp(last_lambda, kFirstLambda, 1.0) : 0.0;
   return solve_mcv(machine, input, policy,
                    {std::max(bound, hold), rise.reserve_n, hold, rise.hold_share});
 }

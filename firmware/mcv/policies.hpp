@@ -41,8 +41,9 @@ struct Asked {
   }
 };
 
-/// Algorithm 1 ends after 24 halvings of [0, most], with a step of 2^-24 = 6.0e-8 of it.
-inline constexpr double kAlgorithm1Width = 1.0 / 16777216.0;
+/// Last step of Algorithm 1 as a share of [0, most], after 24 halvings. [-; derived: the same
+/// tolerance as kStandstillLambda]
+inline constexpr double kAlgorithm1Width = kStandstillLambda;
 
 /// Algorithm 1 of Kim et al.: divide and conquer. A local maximum of (37), the global one unless
 /// regeneration splits the feasible set (Theorem 4). `hold` splits the first interval where
@@ -54,7 +55,8 @@ inline constexpr double kAlgorithm1Width = 1.0 / 16777216.0;
 /// end and on lines without pump flow.
 [[nodiscard]] PolicyResult choose_connected(const Asked& asked);
 
-/// Jumps of the global policy from one failing constraint to where it holds next.
+/// Jumps of the global policy from one failing constraint to where it holds next. [-; size: each
+/// leaves one infeasible interval behind, of which there are few; at the cap Algorithm 1's counts]
 inline constexpr int kGlobalJumps = 64;
 
 /// The largest feasible lambda on [0, most], to 1e-9 of itself but where rounding decides: a

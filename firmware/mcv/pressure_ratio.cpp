@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "firmware/hydraulics/flow.hpp"
+#include "firmware/mcv/tuning.hpp"
 #include "firmware/numeric/constants.hpp"
 #include "firmware/numeric/cube_root.hpp"
 
 namespace graben {
 namespace {
 
+/// Newton steps to a 1 / lambda. [-; size: as many as to a pressure, kPressureSteps]
 constexpr int kRatioSteps = 24;
-/// A first step longer than this share of y: what was known of it says less than the leakage does.
-constexpr double kNear = 0.25;
 
 /// h(r)
 Tangent demand(const FlowBalance& line, const Stretch& stretch, double ratio) {
@@ -88,7 +88,7 @@ Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double r
     const double leak = quadratic * per_y * per_y * per_y;
     const double missing = h.value + linear * per_y + leak - flow * y;
     const double rise = missing / (flow + (linear * per_y + 3.0 * leak) * per_y);
-    if (near && rise > kNear * y) {
+    if (near && rise > kRatioGuessFar * y) {
       y = std::max(y, under_root(flow, h.value, linear, quadratic));
       near = false;
       continue;
@@ -96,7 +96,7 @@ Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double r
     near = false;
     y += rise;
     // The error after a step is at most about the square of its relative length.
-    if (!(rise > 1e-8 * y)) {
+    if (!(rise > kNewtonLastStep * y)) {
       break;
     }
   }

@@ -9,8 +9,8 @@
 namespace graben {
 namespace {
 
-/// The return gallery's pressure falls with the line's: from the drain's alone, which is its most,
-/// each step comes nearer, from above.
+/// Steps to a line's pressure and its return gallery's, which falls with it. [-; size: from the
+/// drain's pressure alone, the most that it can be, each comes nearer from above]
 constexpr int kGallerySteps = 6;
 
 /// sqrt of the line's pressure at which the axis has the force that it needs and the reserve, in

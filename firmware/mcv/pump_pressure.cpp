@@ -5,18 +5,17 @@
 #include <cmath>
 
 #include "firmware/hydraulics/flow.hpp"
+#include "firmware/mcv/tuning.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
 
+/// Newton steps to a pressure. [-; size: a unit test holds random circuits to 20]
 constexpr int kPressureSteps = 24;
-/// A guess whose first step is a larger share of it is too far off for so few of them.
-constexpr double kFar = 0.25;
-/// Relative length of the last step; its square is under what a number can say.
-constexpr double kLastStep = 1e-8;
-/// What rounding alone leaves over, as a share of all flows. A pump that only just feeds its line
-/// has a root so near 0 that no step there gets shorter than kLastStep.
+/// Flow that rounding alone leaves over, as a share of all flows: where a pump only just feeds its
+/// line, no step gets shorter than kNewtonLastStep. [-; derived: about two units in a double's last
+/// place]
 constexpr double kFlowRoundingShare = 4.4e-16;
 
 struct Residual {
@@ -109,14 +108,15 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda, doub
   for (int step = 0; step < kPressureSteps && !result.converged; ++step) {
     const Residual at = residual(balance, lambda, s);
     const double fall = at.left_m3ps / at.slope;
-    result.converged = std::abs(fall) <= kLastStep * s || std::abs(at.left_m3ps) <= rounding_m3ps;
+    result.converged =
+        std::abs(fall) <= kNewtonLastStep * s || std::abs(at.left_m3ps) <= rounding_m3ps;
     const bool relieves = s >= relief && at.left_m3ps >= 0.0;
     // Only rounding puts s left of the root again.
     const bool rounded = step > 0 && !(fall >= 0.0);
     if (relieves || rounded) {
       result.converged = true;
     } else if (fall >= 0.0) {
-      const bool far = step == 0 && fall > kFar * s;
+      const bool far = step == 0 && fall > kPressureGuessFar * s;
       s = std::max(stretch_start(balance, lambda, s), s - fall);
       s = far ? std::min(s, upper_bound(balance, left_at_zero)) : s;
     } else {

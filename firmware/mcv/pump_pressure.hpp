@@ -46,6 +46,10 @@ struct FlowBalance {
   return balance.flow_m3ps - lambda * balance.least_flow_m3ps;
 }
 
+/// Relative length below which a Newton step is the last one. [-; derived: 1.5 times its square is
+/// less than a double tells apart]
+inline constexpr double kNewtonLastStep = 1e-8;
+
 struct PumpPressure {
   bool fed = false;        ///< False: (29), (30) is violated; nothing else is set.
   bool converged = false;  ///< False only if the fixed iteration count was not enough.

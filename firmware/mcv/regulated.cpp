@@ -9,7 +9,7 @@
 namespace graben {
 namespace {
 
-/// Each halves; what is left of sqrt(P) is under a millionth of what it can be.
+/// Halvings of sqrt(P). [-; size: they leave less than a millionth of what it can be]
 constexpr int kHalvings = 24;
 
 double square(double value) { return value * value; }

@@ -6,23 +6,16 @@
 #include <limits>
 
 #include "firmware/hydraulics/flow.hpp"
+#include "firmware/mcv/tuning.hpp"
 
 namespace graben {
 namespace {
 
-/// For all stretches together; random circuits need at most a quarter of it.
+/// Steps of a search, over all its stretches. [-; size: random circuits need at most a quarter]
 constexpr int kSteps = 96;
-/// On a line that is starved, where rounding can use them all up, and halving takes over.
+/// Steps of a search on a starved line. [-; size: rounding can use them all up, then halving takes
+/// over]
 constexpr int kStarvedSteps = 32;
-/// A step is the last where Newton would change lambda by less than this share: Newton's own leaves
-/// an error of the order of its square, the chord's, which ends inside Newton's, at most that.
-constexpr double kLastNewton = 1e-7;
-constexpr double kLastChord = 1e-5;
-/// What a chord spans at first, in lambda: where lambda goes to 0 at a finite r, as it does without
-/// pump flow, a longer one would say next to nothing.
-constexpr double kReach = 4.0;
-/// Difference of drive and resistance that rounding alone explains, as a share of their sum.
-constexpr double kRoundingShare = 1e-14;
 
 struct Lengths {
   Tangent drive;
@@ -120,14 +113,14 @@ class StretchSearch {
         return;
       }
       const Gap gap = gap_of(at);
-      if (!(gap.missing > kRoundingShare * gap.size)) {
+      if (!(gap.missing > kGapRoundingShare * gap.size)) {
         change.found = true;
         return;
       }
       const double left = std::abs(end - change.ratio);
       const double newton = gap.closing > 0.0 ? gap.missing / gap.closing : left;
       const double share = newton * at.inverse_lambda.slope / at.inverse_lambda.value;
-      if (newton < left && share < kLastNewton) {
+      if (newton < left && share < kLastNewtonShare) {
         change.ratio += sign() * newton;
         change.found = true;
         return;
@@ -135,7 +128,7 @@ class StretchSearch {
       Free free{newton, reach, false, {}};
       if (!straight_) {
         if (slower_ && change.ratio >= looked_to) {
-          looked_to = ratio_at(at.inverse_lambda.value * kReach, change.ratio);
+          looked_to = ratio_at(at.inverse_lambda.value * kFirstChordSpan, change.ratio);
           reach = looked_to > change.ratio ? std::min(left, looked_to - change.ratio) : left;
         }
         free = free_by_chord(at, gap, change.ratio, std::min({newton, left, reach}));
@@ -153,7 +146,7 @@ class StretchSearch {
         nudge *= 4.0;
       } else {
         change.ratio = next;
-        change.found = share < kLastChord;
+        change.found = share < kLastChordShare;
       }
       if (change.found) {
         return;

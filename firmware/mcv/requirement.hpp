@@ -26,7 +26,8 @@ struct Requirement {
   RegenerationDemand regeneration;  ///< The axis' own circuit.
 };
 
-/// Below this lambda the machine stands still: the paper's epsilon of 1e-7, as Algorithm 1 has it.
+/// Lambda below which the machine stands still: 2^-24 = 6.0e-8. [-; paper: Kim et al., Section 5
+/// and Theorem 4 (1): epsilon of 1e-7, which Algorithm 1 halves down to in 24 steps]
 inline constexpr double kStandstillLambda = 1.0 / 16777216.0;
 
 [[nodiscard]] Requirement no_back_flow(const CircuitAxis& axis);

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Numbers that were chosen for the valve's circuit and its optimiser, each with why.
+
+namespace graben {
+
+// Lines without pump flow (circuit.cpp, descent.cpp)
+
+/// Share of what a line's cylinders move below which its pump flow counts as none in searches over
+/// r. [-; chosen: less is all rounding there, and the exact circuit decides in the end; not tried]
+inline constexpr double kStarvedFlowShare = 1e-9;
+/// Factor on r of a stagnant line that puts it left of where 1 / lambda becomes infinite. [-;
+/// chosen: well beyond rounding; not tried]
+inline constexpr double kStagnantInside = 1.0 - 1e-9;
+
+// Newton's guesses (pump_pressure.cpp, pressure_ratio.cpp)
+
+/// First step of the pressure's Newton, as a share of its guess, from which the guess was too far
+/// off. [-; chosen: few steps are left for it; not tried]
+inline constexpr double kPressureGuessFar = 0.25;
+/// First step of 1 / lambda's Newton, as a share of it, from which the guess was too far off. [-;
+/// chosen: the guess says less than the leakage does; not tried]
+inline constexpr double kRatioGuessFar = 0.25;
+
+// Search for a requirement's change (requirement.cpp)
+
+/// Share of lambda below which Newton's next step is the last one. [-; chosen: its error, about the
+/// square, is far below the 1e-9 of choose_global(); not tried]
+inline constexpr double kLastNewtonShare = 1e-7;
+/// Share of lambda below which a chord's step is the last one. [-; chosen: it ends inside Newton's,
+/// whose error is about the square, 1e-10; not tried]
+inline constexpr double kLastChordShare = 1e-5;
+/// Factor on 1 / lambda that a search's first chord spans. [-; chosen: a longer one says next to
+/// nothing where lambda goes to 0 at a finite r; not tried]
+inline constexpr double kFirstChordSpan = 4.0;
+/// Share of drive and resistance together below which their difference is rounding. [-; chosen:
+/// some 50 roundings; not tried]
+inline constexpr double kGapRoundingShare = 1e-14;
+
+// Optimiser (optimiser.cpp)
+
+/// Multiple of a spool table's last c_L and travel beyond which a shortfall is not told apart. [-;
+/// chosen: not tried]
+inline constexpr double kShortfallMost = 16.0;
+/// Greatest share of an axis' force at standstill, (43), that the reserve takes. [-; chosen: an
+/// axis that can hardly start still starts, and others keep their reserve; not tried]
+inline constexpr double kMostReserveShare = 0.5;
+/// Lambda that the first cycle from rest may reach, whatever its period. [-; chosen: not tried]
+inline constexpr double kFirstLambda = 1e-3;
+
+}  // namespace graben
