@@ -5,41 +5,18 @@
 
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "firmware/excavator/swing.hpp"
+#include "firmware/excavator/tuning.hpp"
 #include "firmware/hydraulics/flow.hpp"
 
 namespace graben {
 namespace {
 
-/// Half of what a stroke sensor resolves.
+/// Slack before a cylinder's ends. [m; derived: half of the 0.1 mm that a stroke sensor resolves,
+/// Kim et al. section 5]
 constexpr double kEndSlack_m = 0.05e-3;
 
-/// That the tip may be off before a stroke is taken for wrong, m, and what that makes of a stroke
-/// at least, which is what oil, bands and noise make of a healthy one, and at most.
-constexpr double kTipOff_m = 0.08;
-constexpr double kOffLeast_m = 0.008;
-constexpr double kOffMost_m = 0.010;
-/// More by angles that are foretold over 20 ms: 4 mrad at 15 Hz, an arm in hard ground, are
-/// foretold 10 mm to and fro.
-constexpr double kShaken_m = 0.015;
-/// Against its open spool; what the hoses' oil gives is less.
-constexpr double kWrong_m = 0.012;
-/// A stroke that stands still is told with so much of that.
-constexpr double kUnseenShare = 0.3;
-
-/// What the oil's law can use.
-constexpr double kDeadTimeMost_s = 0.05;
-constexpr double kLagMost_s = 0.1;
-
-/// Of the servo's gain, frequency and damping where no pressure is measured. Then the servo leads
-/// by itself, and the low-pass that has it damp the linkage's lowest mode has to be below that of
-/// the softest oil, 0.6 GPa instead of 1.4: else one machine of six rings at 2 Hz, in limit cycles
-/// of 40 to 70 mm.
-constexpr double kGainWithoutPressures = 0.75;
-constexpr double kFrequencyWithoutPressures = 0.67;
-constexpr double kDampingWithoutPressures = 0.75;
-
 bool is_quick(const SpoolAnswer& answer) {
-  return answer.dead_time_s <= kDeadTimeMost_s && answer.lag_s <= kLagMost_s &&
+  return answer.dead_time_s <= kOilDeadTimeMost_s && answer.lag_s <= kOilLagMost_s &&
          answer.spool_time_constant_s <= kLedSpoolMost_s;
 }
 
@@ -97,11 +74,11 @@ DriveRow cylinder_row(const ExcavatorProfile& profile, int axis, double leverage
   row.control.at_end = {LimitKind::kStrokeEnd, static_cast<std::uint8_t>(axis)};
   row.watch.fastest_mps = fastest_mps(profile, row);
   row.watch.uncommanded_m = profile.safety.uncommanded_m;
-  row.watch.wrong_m = kWrong_m;
+  row.watch.wrong_m = kStrokeWrong_m;
   row.watch.stuck_m = profile.safety.stuck_m;
-  row.watch.off_m = std::clamp(kTipOff_m / leverage, kOffLeast_m, kOffMost_m) +
-                    (profile.foretells_joints() ? kShaken_m : 0.0);
-  row.watch.unseen_m = kUnseenShare * row.watch.off_m;
+  row.watch.off_m = std::clamp(kStrokeOffTip_m / leverage, kStrokeOffLeast_m, kStrokeOffMost_m) +
+                    (profile.foretells_joints() ? kForetoldShaken_m : 0.0);
+  row.watch.unseen_m = kStrokeUnseenShare * row.watch.off_m;
   return row;
 }
 

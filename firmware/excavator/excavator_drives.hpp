@@ -33,9 +33,6 @@ using ExcavatorBank = DriveBank<kDriveCount>;
 /// Faster than this a row with spool and areas never moves, m/s.
 [[nodiscard]] double fastest_mps(const ExcavatorProfile& profile, const DriveRow& row);
 
-/// A spool that follows slower than this is not led, s.
-inline constexpr double kLedSpoolMost_s = 0.045;
-
 /// Boom and arm answer in time for a feedback of the oil's state (oil_law.hpp): later than 50 ms,
 /// lagging more than 100 ms or by spools that are not led, what is fed back comes too late, and the
 /// servo's expectation is better.

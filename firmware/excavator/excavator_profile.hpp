@@ -18,10 +18,15 @@
 
 namespace graben {
 
+/// Number of the boom among the drives. [-; standard: LimitIndex of EcuStatus counts them so]
 inline constexpr int kBoom = 0;
+/// Number of the arm. [-; standard: as kBoom]
 inline constexpr int kArm = 1;
+/// Number of the bucket. [-; standard: as kBoom]
 inline constexpr int kBucket = 2;
-inline constexpr int kSwing = 3;  ///< theta_0 of Zhang et al.; after the axes with a cylinder.
+/// Number of the swing, theta_0 of Zhang et al., after the axes with a cylinder. [-; standard: as
+/// kBoom]
+inline constexpr int kSwing = 3;
 
 /// One value a drive, in the order kBoom, kArm, kBucket, kSwing.
 using DriveVector = Eigen::Vector4d;
@@ -89,7 +94,8 @@ struct ExcavatorGeometry {
   ExcavatorBody body;
 };
 
-/// A time that a side of a spool does not say by itself.
+/// Stands for a time that a side of a spool does not say by itself. [s; derived: below 0 there is
+/// no such time]
 inline constexpr double kUnsaid_s = -1.0;
 
 /// A SpoolAnswer as far as it is known of one side by itself.

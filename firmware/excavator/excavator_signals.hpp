@@ -11,9 +11,12 @@
 
 namespace graben {
 
-inline constexpr int kAxisCount = 3;   ///< Boom, arm, bucket: what has a cylinder.
-inline constexpr int kDriveCount = 4;  ///< With the swing, at most; a machine may be without.
-inline constexpr int kPumpCount = 2;   ///< At most; a machine may have one.
+/// Axes with a cylinder. [-; size: boom, arm, bucket]
+inline constexpr int kAxisCount = 3;
+/// Most drives of a machine; it may be without swing. [-; size: the axes and the swing]
+inline constexpr int kDriveCount = 4;
+/// Most pumps of a machine; it may have one. [-; size: the two of Kim's 22 t machine]
+inline constexpr int kPumpCount = 2;
 
 using AxisInputs = DriveInputs;
 
@@ -25,9 +28,11 @@ struct SwingInputs {
   Signal<double> spool_ratio;
 };
 
-/// Where an IMU may be: on a link, in the order of the axes, or on the platform.
-inline constexpr int kImuCount = 4;
-inline constexpr int kBodyImu = 3;
+/// Number of the IMU on the platform; those on links have their axis's. [-; derived: after the
+/// axes]
+inline constexpr int kBodyImu = kAxisCount;
+/// Most IMUs of a machine. [-; size: one a link and one on the platform]
+inline constexpr int kImuCount = kBodyImu + 1;
 
 /// What a gyro shows, about the sensor's own axes: pitch lifts its front, roll is about its long
 /// axis, yaw about its upright one; those two as of a right-handed turn.

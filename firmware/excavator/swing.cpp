@@ -5,32 +5,14 @@
 #include <cmath>
 
 #include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/excavator/tuning.hpp"
 
 namespace graben {
 namespace {
 
-/// Sensed as far as this, either way.
+/// Angle as far as which the swing is sensed, either way. [rad; standard: range of SwingAngle in
+/// excavator.dbc]
 constexpr double kSensedMost_rad = 3.2;
-/// Noise, and frames that were lost. 0.1 m at teeth 7 m away.
-constexpr double kJumpMargin_rad = 0.015;
-/// Against its open spool.
-constexpr double kWrong_rad = 0.003;
-/// Against what the oil does; 0.07 and 0.10 m at teeth 7 m away.
-constexpr double kUnseen_rad = 0.010;
-constexpr double kOff_rad = 0.015;
-/// 10 mm/s at teeth 7 m away.
-constexpr double kStill_radps = 0.0015;
-/// Of its full speed a worn motor leaks so much at the sensors' largest pressure.
-constexpr double kLeakShare = 0.10;
-/// Low-passes of what pushes the platform: less than its oil's period, and more.
-constexpr double kPushFast_s = 0.02;
-constexpr double kPushSlow_s = 2.0;
-/// Friction takes so much, whichever way the platform turns.
-constexpr double kFriction_pa = 1.4e6;
-/// Of the plan's acceleration, no more is taken back.
-constexpr double kDampsMost = 2.0;
-/// 0.2 mm of teeth 10 m away.
-constexpr double kEndSlack_rad = 0.02e-3;
 
 }  // namespace
 
@@ -51,7 +33,7 @@ DriveRow swing_row(const ExcavatorProfile& profile) {
   row.most_travel_m = swing.left_end_rad * lever_m;
   row.extend_area_m2 = swing.area_m2();
   row.retract_area_m2 = swing.area_m2();
-  row.control.end_slack_m = kEndSlack_rad * lever_m;
+  row.control.end_slack_m = kSwingEndSlack_rad * lever_m;
   row.control.deceleration_mps2 = swing.acceleration_max_radps2 * lever_m;
   row.control.at_end = {LimitKind::kSwingEnd, 0};
   row.control.has_end_stops = false;
@@ -63,16 +45,17 @@ DriveRow swing_row(const ExcavatorProfile& profile) {
       std::min(row.feedback.error_most_m, profile.control.swing_servo_most_rad * lever_m);
   row.watch.fastest_mps =
       std::min(fastest_mps(profile, row), kFasterThanPumps * swing.speed_max_radps * lever_m);
-  row.watch.jump_margin_m = kJumpMargin_rad * lever_m;
+  row.watch.jump_margin_m = kSwingJumpMargin_rad * lever_m;
   row.watch.sensed_least_m = -(kSensedMost_rad * lever_m);
   row.watch.sensed_most_m = kSensedMost_rad * lever_m;
   row.watch.uncommanded_m = profile.safety.swing_uncommanded_rad * lever_m;
-  row.watch.wrong_m = kWrong_rad * lever_m;
+  row.watch.wrong_m = kSwingWrong_rad * lever_m;
   row.watch.stuck_m = profile.safety.swing_stuck_rad * lever_m;
-  row.watch.unseen_m = kUnseen_rad * lever_m;
-  row.watch.off_m = kOff_rad * lever_m;
-  row.watch.still_mps = kStill_radps * lever_m;
-  row.watch.leak_mpspa = kLeakShare * swing.speed_max_radps * lever_m / row.watch.pressure_rail_pa;
+  row.watch.unseen_m = kSwingUnseen_rad * lever_m;
+  row.watch.off_m = kSwingOff_rad * lever_m;
+  row.watch.still_mps = kSwingStill_radps * lever_m;
+  row.watch.leak_mpspa =
+      kSwingLeakShare * swing.speed_max_radps * lever_m / row.watch.pressure_rail_pa;
   // A platform at full speed goes on turning against its reliefs when its spool closes at once.
   row.watch.rest_s = rest_s(row) + swing.speed_max_radps / swing.acceleration_max_radps2;
   return row;
@@ -104,8 +87,8 @@ void next_swing_push(const ValidDrive& swing, double period_s, SwingPush& push) 
   if (!push.known) {
     push = {true, now_pa, now_pa};
   }
-  push.fast_pa += period_s / (period_s + kPushFast_s) * (now_pa - push.fast_pa);
-  push.slow_pa += period_s / (period_s + kPushSlow_s) * (now_pa - push.slow_pa);
+  push.fast_pa += period_s / (period_s + kSwingPushFast_s) * (now_pa - push.fast_pa);
+  push.slow_pa += period_s / (period_s + kSwingPushSlow_s) * (now_pa - push.slow_pa);
 }
 
 double swing_damping_mps(const ExcavatorProfile& profile, const SwingPush& push) {
@@ -113,9 +96,10 @@ double swing_damping_mps(const ExcavatorProfile& profile, const SwingPush& push)
   if (!profile.has_swing() || !push.known || !(swing.inertia_kgm2 > 0.0)) {
     return 0.0;
   }
-  const double most_radps2 = kDampsMost * swing.acceleration_max_radps2;
+  const double most_radps2 = kSwingDampsMost * swing.acceleration_max_radps2;
   const double push_pa = push.fast_pa - push.slow_pa;
-  const double beyond_pa = std::copysign(std::max(0.0, std::abs(push_pa) - kFriction_pa), push_pa);
+  const double beyond_pa =
+      std::copysign(std::max(0.0, std::abs(push_pa) - kSwingFriction_pa), push_pa);
   const double pushed_radps2 = swing.displacement_m3prad * beyond_pa / swing.inertia_kgm2;
   return -profile.control.swing_lead_s * swing.lever_m *
          std::clamp(pushed_radps2, -most_radps2, most_radps2);

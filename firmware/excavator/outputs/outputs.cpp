@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/excavator/outputs/outputs.hpp"
 
+#include "firmware/excavator/tuning.hpp"
+
 namespace graben {
 namespace {
 
