@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "firmware/excavator/kinematics/tuning.hpp"
 #include "firmware/numeric/triangle.hpp"
 
 namespace graben {

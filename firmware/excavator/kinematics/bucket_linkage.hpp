@@ -8,9 +8,6 @@
 
 namespace graben {
 
-/// The bucket's range lies about here (mostly folded in); angles are taken in the turn around it.
-inline constexpr double kBucketCentre_rad = -1.1;
-
 /// Bucket angle and its slope at a cylinder length.
 struct LinkageState {
   bool closed = false;       ///< False: rocker and coupler can't meet there; nothing else is set.

@@ -5,19 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/kinematics/tuning.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
-
-/// A stroke may pass its range by this much: rounding of a pose computed from a stroke at its end.
-constexpr double kStrokeTolerance_m = 1e-6;
-/// Rounding of an angle computed from a length and back.
-constexpr double kSameAngle_rad = 1e-6;
-/// Levers of a machine are decimetres; below this the inverse is of no use.
-constexpr double kSmallestLever_m = 1e-3;
-/// Of the joints' Jacobian: boom length * arm length * sin(arm angle).
-constexpr double kSmallestDeterminant_m2 = 1e-3;
 
 /// Sum of the first n joint angles gives the direction of link n.
 Eigen::Vector2d link(double length_m, double direction_rad) {
@@ -43,8 +35,8 @@ ReachStatus ExcavatorKinematics::check_strokes(const Eigen::Vector3d& strokes_m)
       return ReachStatus::kNotFinite;
     }
     const auto i = static_cast<unsigned>(axis);
-    if (stroke < -kStrokeTolerance_m ||
-        stroke > geometry_.cylinder[i].stroke_m + kStrokeTolerance_m) {
+    if (stroke < -kPoseStrokeTolerance_m ||
+        stroke > geometry_.cylinder[i].stroke_m + kPoseStrokeTolerance_m) {
       return kWhich[i];
     }
   }
@@ -81,7 +73,7 @@ StrokeResult ExcavatorKinematics::strokes_from_joints(const Eigen::Vector3d& joi
   const LinkageState bucket = bucket_.from_angle(joints_rad[kBucket]);
   const LinkageState same = bucket_.from_length(bucket.length_m);
   if (!bucket.closed || !same.closed ||
-      std::abs(same.angle_rad - bucket.angle_rad) > kSameAngle_rad) {
+      std::abs(same.angle_rad - bucket.angle_rad) > kLinkageSameAngle_rad) {
     return {ReachStatus::kLinkageOpen, Eigen::Vector3d::Zero()};
   }
   const Eigen::Vector3d strokes(

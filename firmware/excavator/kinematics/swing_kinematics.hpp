@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
+#include "firmware/excavator/kinematics/tuning.hpp"
 
 namespace graben {
 
@@ -63,10 +64,6 @@ struct DriveMotion {
   DriveVector rate = DriveVector::Zero();
   DriveVector curvature = DriveVector::Zero();
 };
-
-/// Teeth nearer than this to the swing axis have no direction to swing to that could be followed;
-/// the machine stands there.
-inline constexpr double kLeastSwingRadius_m = 0.3;
 
 /// Closed forms throughout. The elbow is always up (t_2 of (5) with k_2 = -1: theta_2 in -pi .. 0),
 /// as the arm cylinder's range has it; the machine always faces its teeth, never bends over
