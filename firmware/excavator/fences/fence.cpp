@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/excavator/fences/keep_out.hpp"
+#include "firmware/excavator/fences/tuning.hpp"
 
 namespace graben {
 namespace {
@@ -15,11 +16,10 @@ constexpr std::array<MachinePoint, kGapMost> kGuarded = {
     MachinePoint::kHeelRight, MachinePoint::kPinLeft,   MachinePoint::kPinRight,
     MachinePoint::kBucketPin, MachinePoint::kArmPin,    MachinePoint::kBoomBend,
     MachinePoint::kBoomFoot,  MachinePoint::kTailLeft,  MachinePoint::kTailRight};
+/// Corners of the bucket's edge in kGuarded. [-; size: left and right]
 constexpr int kEdgeCorners = 2;
+/// Corners of the counterweight in kGuarded. [-; size: left and right]
 constexpr int kTailCorners = 2;
-
-/// More upright than this is no wall: the machine stands on what is below it.
-constexpr double kWallMost = 0.5;
 
 /// Of what is round a point.
 double radius_m(const ExcavatorBody& body, MachinePoint point) {
@@ -39,7 +39,7 @@ double radius_m(const ExcavatorBody& body, MachinePoint point) {
   }
 }
 
-bool is_wall(const Fence& plane) { return std::abs(plane.normal.z()) < kWallMost; }
+bool is_wall(const Fence& plane) { return std::abs(plane.normal.z()) < kWallUprightMost; }
 
 }  // namespace
 

@@ -39,6 +39,7 @@ struct Fence {
   [[nodiscard]] bool is_plane() const { return shape == FenceShape::kPlane; }
 };
 
+/// Most fences of a task, its design surface among them. [-; size: of FenceSet]
 inline constexpr int kFenceMost = 8;
 
 struct FenceSet {
@@ -59,7 +60,8 @@ struct FenceGap {
           plane.normal.dot(point.velocity_mps)};
 }
 
-/// Most of gap_count(), of any fence.
+/// Most of gap_count(), of any fence. [-; derived: all points but the middle of the edge, which is
+/// between its corners]
 inline constexpr int kGapMost = kMachinePointCount - 1;
 
 /// Gaps that have to be looked at between the machine and a fence, each by itself: of a plane those

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/fences/tuning.hpp"
+
 namespace graben {
 namespace {
 
@@ -19,11 +21,15 @@ Eigen::Vector3d across(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
           a.x() * b.y() - a.y() * b.x()};
 }
 
+/// Most corners of a part. [-; size: the bucket's prism]
 constexpr int kCornerMost = 6;
+/// Most edges of a part in the links' plane, by direction. [-; size: the bucket's triangle]
 constexpr int kSideMost = 3;
+/// Most edges of a part. [-; size: the bucket's prism]
 constexpr int kEdgeMost = 9;
 
-/// Halvings or better where an edge is nearest: to some 1e-3 of its length.
+/// Steps of the search for the nearest place of an edge. [-; size: halvings or better, to some 1e-3
+/// of its length]
 constexpr int kNearestSteps = 8;
 
 /// From corner to corner.
@@ -66,6 +72,7 @@ void add_bucket(const Fence& keep_out, const MachineMotion& motion, Hull& hull) 
         MachinePoint::kEdgeRight, MachinePoint::kPinRight, MachinePoint::kHeelRight}) {
     hull.add(keep_out, motion, point);
   }
+  /// Corners of the bucket seen from the side. [-; size: edge, pin, heel]
   constexpr unsigned kCorners = 3;
   for (unsigned i = 0; i < kCorners; ++i) {
     const unsigned next = (i + 1) % kCorners;
@@ -130,9 +137,8 @@ class Separation {
 
   /// Planes across `axis`, of any length; one of none says nothing.
   void try_axis(const Eigen::Vector3d& axis) {
-    constexpr double kNone = 1e-12;
     const double square = axis.squaredNorm();
-    if (square < kNone) {
+    if (square < kNoAxisSquared) {
       return;
     }
     const Eigen::Vector3d unit = axis / std::sqrt(square);
@@ -187,13 +193,12 @@ class Separation {
   [[nodiscard]] double distance_m() const { return best_m_; }
   /// Of corners that are as near, an edge's or a face's, the one that closes fastest.
   [[nodiscard]] FenceGap gap() const {
-    constexpr double kAsNear_m = 1e-3;
     FenceGap gap{best_m_, 0.0, corner(nearest_).point};
     const double nearest_m = away_.dot(corner(nearest_).at_m);
     bool is_first = true;
     for (int i = 0; i < hull_.corner_count; ++i) {
       const double closing_mps = -away_.dot(corner(i).moves_mps);
-      if (away_.dot(corner(i).at_m) < nearest_m + kAsNear_m &&
+      if (away_.dot(corner(i).at_m) < nearest_m + kAsNearCorner_m &&
           (is_first || closing_mps > gap.closing_mps)) {
         is_first = false;
         gap.closing_mps = closing_mps;

@@ -15,6 +15,7 @@ enum class MachinePart : std::uint8_t {
   kTailPart = 4,      ///< The counterweight.
 };
 
+/// Parts of the machine. [-; derived: number of MachinePart's values]
 inline constexpr int kMachinePartCount = 5;
 
 /// The widest gap that a plane between both shows, less the part's radius: never more than the

@@ -28,6 +28,7 @@ enum class MachinePoint : std::uint8_t {
   kTailRight = 12,
 };
 
+/// Points that fences guard. [-; derived: number of MachinePoint's values]
 inline constexpr int kMachinePointCount = 13;
 
 struct PointMotion {
