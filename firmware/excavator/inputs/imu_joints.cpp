@@ -5,28 +5,17 @@
 #include <cmath>
 #include <cstddef>
 
+#include "firmware/excavator/inputs/tuning.hpp"
 #include "firmware/excavator/kinematics/bucket_linkage.hpp"
+#include "firmware/excavator/kinematics/tuning.hpp"
 #include "firmware/numeric/triangle.hpp"
 
 namespace graben {
 namespace {
 
-/// After it the links have swung out on their oil.
-constexpr double kRest_s = 1.0;
-/// Readings farther apart than this say nothing of what was between them.
-constexpr double kLongest_s = 0.1;
-/// A gyro that is off by more, in standard deviations, is taken for failed: so is the accelerometer
-/// that says so.
-constexpr double kBiasMost = 5.0;
-/// A link that has turned so far shows it in the direction of its force, by twenty counts: some ten
-/// a falling link may hide.
-constexpr double kTurned_rad = 0.02;
-/// Over so many readings: one that shakes may show the same force twice.
-constexpr int kSameForces = 4;
-/// So often no gyro that lives shows the same, where the force has changed each time.
-constexpr int kSameMost = 20;
-/// Joint angles are taken in the turn around this; the arm folds in.
-constexpr std::array<double, kAxisCount> kCentre_rad = {0.0, -1.57, kBucketCentre_rad};
+/// Middle of the turn in which each joint's angle is taken. [rad; derived: the boom's range is
+/// about level, kArmCentre_rad, kBucketCentre_rad]
+constexpr std::array<double, kAxisCount> kCentre_rad = {0.0, kArmCentre_rad, kBucketCentre_rad};
 
 Eigen::Vector2d turned_by(const Eigen::Vector2d& v, double angle_rad) {
   const double c = std::cos(angle_rad);
@@ -81,10 +70,10 @@ void watch_frozen(const AngleNoise& noise, const LinkAngle& last, const AngleRea
   watch.rates = rates;
   watch.turned_rad =
       same_force ? watch.turned_rad + (next.rate_radps - last.bias_radps) * next.period_s : 0.0;
-  watch.same_forces = same_force ? std::min(watch.same_forces + 1, kSameForces) : 0;
+  watch.same_forces = same_force ? std::min(watch.same_forces + 1, kImuSameForces) : 0;
   // A gyro without noise may rest while its link is shaken a little.
   const int shaken = change_mps2.norm() > noise.force_mps2 ? 1 : 0;
-  watch.same_rates = same_rates ? std::min(watch.same_rates + shaken, kSameMost) : 0;
+  watch.same_rates = same_rates ? std::min(watch.same_rates + shaken, kImuSameRates) : 0;
 }
 
 /// Takes the newest reading of an IMU, if there is one. True if the link goes on by it.
@@ -103,7 +92,7 @@ bool take_reading(const ImuProfile& profile, const AngleNoise& noise, const ImuI
   const AngleReading reading = reading_of(profile.mount[index], imu, period_s, link.angle_rad);
   state.stamp_us[index] = stamp_us;
   state.latency_s[index] = latency_s;
-  if (link.readings == 0 || !(period_s > 0.0 && period_s < kLongest_s)) {
+  if (link.readings == 0 || !(period_s > 0.0 && period_s < kImuGapMost_s)) {
     begin_angle(noise, reading, link);
     return false;
   }
@@ -205,7 +194,7 @@ Validity worst_validity(const ImuProfile& profile, const ExcavatorInputs& inputs
     }
     const LinkAngle& link = state.link[index];
     worst = std::min(worst, validity_of(inputs.imu[index]));
-    const bool strays = std::abs(link.bias_radps) > kBiasMost * profile.rate_bias_radps;
+    const bool strays = std::abs(link.bias_radps) > kImuBiasMost * profile.rate_bias_radps;
     const bool wrong = link.contradicts() || strays || state.frozen[index].is_frozen();
     if (worst == Validity::kValid && wrong) {
       worst = Validity::kError;
@@ -220,8 +209,8 @@ Validity worst_validity(const ImuProfile& profile, const ExcavatorInputs& inputs
 }  // namespace
 
 bool FrozenWatch::is_frozen() const {
-  return (same_forces >= kSameForces && std::abs(turned_rad) > kTurned_rad) ||
-         same_rates >= kSameMost;
+  return (same_forces >= kImuSameForces && std::abs(turned_rad) > kImuFrozenTurn_rad) ||
+         same_rates >= kImuSameRates;
 }
 
 ImuStrokes next_imu_strokes(const ExcavatorKinematics& kinematics, const ImuProfile& profile,
@@ -229,8 +218,8 @@ ImuStrokes next_imu_strokes(const ExcavatorKinematics& kinematics, const ImuProf
                             ImuState& state) {
   const AngleNoise noise = {profile.rate_noise_radps, profile.rate_bias_radps,
                             profile.force_noise_mps2};
-  state.rest_s = still ? std::min(state.rest_s + period_s, kRest_s) : 0.0;
-  const bool at_rest = state.rest_s >= kRest_s;
+  state.rest_s = still ? std::min(state.rest_s + period_s, kImuRest_s) : 0.0;
+  const bool at_rest = state.rest_s >= kImuRest_s;
   std::array<bool, kImuCount> is_new{};
   for (unsigned index = 0; index < kImuCount; ++index) {
     is_new[index] = profile.mount[index].address != 0 &&

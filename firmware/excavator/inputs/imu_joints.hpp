@@ -57,7 +57,4 @@ struct ImuStrokes {
                                           const ImuProfile& profile, const ExcavatorInputs& inputs,
                                           bool still, double period_s, ImuState& state);
 
-/// 0.4 deg, beside the constant error.
-inline constexpr double kLinkKnown_rad = 0.007;
-
 }  // namespace graben

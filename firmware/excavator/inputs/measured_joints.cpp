@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/inputs/tuning.hpp"
+
 namespace graben {
 namespace {
 

@@ -10,9 +10,6 @@
 
 namespace graben {
 
-/// A joint may show so much beyond its cylinder's end: rounding of the bus, zero and bias.
-inline constexpr double kBeyondEnd_m = 0.01;
-
 /// As valid and as old as the worst of the joints: each is kept, or none. A joint beyond the end of
 /// its cylinder by no more than kBeyondEnd_m is at that end; farther, or where its linkage cannot
 /// be, all are kOutOfRange.
