@@ -5,16 +5,11 @@
 
 #include "firmware/excavator/estimation/load/assumed_load.hpp"
 #include "firmware/excavator/limits/motion_cap.hpp"
+#include "firmware/excavator/limits/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {
 namespace {
-
-/// A move goes on without corrections that leave less than this share of it: no line is off then,
-/// and where a small correction needs more pressure than its pump has they never would be made.
-constexpr double kHeldUp = 0.3;
-/// Of the weight, from which on the oil's law decides.
-constexpr double kLeads = 0.5;
 
 void ease_blocked(const ExcavatorModel& machine, Span<const BlockedState> blocked, Motion& motion) {
   motion.towards_mps = motion.corrected_mps;
@@ -45,7 +40,7 @@ void hold_at_fences(const ExcavatorModel& machine, const InputState& inputs,
 void park_spools(const ExcavatorModel& machine, const ExcavatorValid& valid,
                  const EstimationState& estimates, double period_s, const LastCycle& last,
                  Motion& motion, LimitState& state) {
-  if (valid.task != Task::kDig || estimates.oil.weight < kLeads || motion.eases) {
+  if (valid.task != Task::kDig || estimates.oil.weight < kOilParksFrom || motion.eases) {
     state.parking = {};
     return;
   }
@@ -113,7 +108,7 @@ Followed flow_limited(const ExcavatorModel& machine, const ExcavatorValid& valid
         std::min(last.flow.of_corrected + control.lambda_rise.rate_ps * period_s, 1.0);
     followed.solution = solve_mcv(machine.valve, input, control.lambda_policy, {most});
     followed.of_corrected = followed.solution.point.lambda;
-    if (motion.task.moves && !motion.eases && followed.of_corrected < kHeldUp) {
+    if (motion.task.moves && !motion.eases && followed.of_corrected < kMoveHeldUp) {
       followed.solution = of_wanted;
       followed.of_corrected = 1.0;
       followed.as_wanted = true;

@@ -62,6 +62,7 @@ class FencedMachine {
   }
 
  private:
+  /// Most gaps beyond a fence that are kept. [-; size: with more, no drive by itself is free]
   static constexpr int kBeyondMost = 16;
 
   void slow_at(int number, const MachineMotion& motion, double far_m, VelocityCap& cap) {

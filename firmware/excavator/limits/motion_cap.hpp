@@ -5,14 +5,9 @@
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/fences/fence_margin.hpp"
+#include "firmware/excavator/limits/tuning.hpp"
 
 namespace graben {
-
-/// A fence stands so far behind what it guards. At the place itself the machine may still close at
-/// stroke_end_gain times it, which is what makes sliding along a fence possible, see
-/// approach_ends(). A feedback weaker than stroke_end_gain towards a plan that is not beyond the
-/// fence is never slowed at all. It is a part of the millimetre by which a limit may be overrun.
-inline constexpr double kFenceSlack_m = 0.2e-3;
 
 /// A cap, and which drives it is for: 0 for one that has to stand, else 1.
 struct MotionCap : VelocityCap {
@@ -33,12 +28,10 @@ struct MotionCap : VelocityCap {
                                    const DriveVector& then_m, const DriveVector& velocity_mps,
                                    double coast_m = 0.0, double zero_m = 0.0);
 
-/// The platform is heavy and its oil soft: it lags 0.15 to 0.4 s behind its spool, and swings about
-/// its place. What it turns faster than it was asked to (m/s at the lever) takes it so much
-/// further.
+/// How far the platform turns on by what it turns faster than it was asked to (m/s at the lever):
+/// it lags behind its spool, and swings about its place.
 [[nodiscard]] inline double swing_coast_m(double measured_mps, double asked_mps) {
-  constexpr double kLag_s = 0.4;
-  return kLag_s * (measured_mps - asked_mps);
+  return kPlatformLag_s * (measured_mps - asked_mps);
 }
 
 }  // namespace graben

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Judgements about the limits on a motion: each was chosen.
+
+namespace graben {
+
+// Corrections and the oil's law (limits.cpp)
+
+/// Share of a move that its corrections must leave to be kept: with less the move goes on without
+/// them. [-; chosen: a small correction that needs more pressure than its pump has would never be
+/// made, and no line is off in a move; not tried]
+inline constexpr double kMoveHeldUp = 0.3;
+/// Weight of the oil's law from which on the spools of boom and arm are parked. [-; chosen: the law
+/// has more say than the servo; not tried]
+inline constexpr double kOilParksFrom = 0.5;
+
+// Fences (motion_cap.hpp)
+
+/// Way by which a fence stands behind what it guards. At the place itself the machine may still
+/// close at stroke_end_gain times it, which is what makes sliding along a fence possible, see
+/// approach_ends(): a feedback weaker than stroke_end_gain towards a plan that is not beyond the
+/// fence is never slowed. [m; chosen: a part of the millimetre by which a limit may be overrun; not
+/// tried]
+inline constexpr double kFenceSlack_m = 0.2e-3;
+/// Time for which the platform goes on at what it turns faster than asked: it is heavy, its oil
+/// soft. [s; chosen: it lags 0.15 to 0.4 s behind its spool; 0.3 was tried]
+inline constexpr double kPlatformLag_s = 0.4;
+
+}  // namespace graben
