@@ -28,6 +28,7 @@ struct TipVelocity {
 /// are blended smoothly.
 class DigField {
  public:
+  /// Poses of the path that the approach may head for. [-; size: of the table of strokes]
   static constexpr int kSamples = 96;
 
   DigField(const ExcavatorProfile& profile, const ExcavatorKinematics& kinematics);

@@ -5,10 +5,13 @@
 #include <array>
 #include <cmath>
 
+#include "firmware/numeric/constants.hpp"
+
 namespace graben {
 namespace {
-constexpr double kHalfPi = 1.57079632679489661923;
-}
+/// Turn of a corner. [rad; derived: a right angle, half of kPi]
+constexpr double kHalfPi = 0.5 * kPi;
+}  // namespace
 
 RoundedRectangle::RoundedRectangle(const DigPath& path)
     : path_(path),
