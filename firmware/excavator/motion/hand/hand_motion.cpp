@@ -4,23 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/motion/hand/tuning.hpp"
 #include "firmware/excavator/motion/program/drive_plan.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {
 namespace {
 
-// Levers of Coordinated.
+/// Lever of Coordinated that raises the teeth. [-; standard: BoomOrUp is the first of OperatorAxes]
 constexpr int kUp = 0;
+/// Lever that moves them forward. [-; standard: ArmOrForward is the second of OperatorAxes]
 constexpr int kForward = 1;
+/// Lever that turns them. [-; standard: BucketOrAttitude is the third of OperatorAxes]
 constexpr int kAttitude = 2;
-
-/// Teeth that the operator steers are slowed and sped up by so many times a line's acceleration.
-constexpr double kBrisk = 4.0;
-/// Until the attitude turns at its fastest.
-constexpr double kAttitudeRise_s = 0.6;
-/// So far ahead there has to be a pose.
-constexpr double kAhead_s = 0.05;
 
 /// Speed with full levers, and its change in a second.
 struct HandRange {
@@ -33,9 +29,9 @@ HandRange hand_range(const ExcavatorProfile& profile, Task task) {
   HandRange range{travel_of(profile, limits.speed_out), travel_of(profile, limits.acceleration)};
   if (task == Task::kCoordinated) {
     const double attitude_radps = profile.control.attitude_rate_max_radps;
-    const double tip_mps2 = kBrisk * profile.line.acceleration_mps2;
+    const double tip_mps2 = kHandBrisk * profile.line.acceleration_mps2;
     range.most.head<3>() << profile.dig_speed_mps, profile.dig_speed_mps, attitude_radps;
-    range.change_ps.head<3>() << tip_mps2, tip_mps2, attitude_radps / kAttitudeRise_s;
+    range.change_ps.head<3>() << tip_mps2, tip_mps2, attitude_radps / kHandAttitudeRise_s;
   }
   return range;
 }
@@ -139,7 +135,7 @@ void lead_teeth(DriveRows drives, const ExcavatorKinematics& kinematics, const K
   const TipPose rate = moved({}, want.speed, 1.0);
   const PathMotion here = kinematics.motion_from_pose(want.tip, rate, {});
   const PathMotion ahead =
-      kinematics.motion_from_pose(moved(want.tip, want.speed, kAhead_s), rate, {});
+      kinematics.motion_from_pose(moved(want.tip, want.speed, kHandAhead_s), rate, {});
   const PathMotion& blind = here.status == ReachStatus::kOk ? ahead : here;
   if (blind.status != ReachStatus::kOk) {
     want.cap.limit = drives[axis_of(blind)].control.at_end;

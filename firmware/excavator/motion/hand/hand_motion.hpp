@@ -7,6 +7,7 @@
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
+#include "firmware/excavator/motion/hand/tuning.hpp"
 
 namespace graben {
 
@@ -24,8 +25,6 @@ struct HandState {
   DriveVector planned_m = DriveVector::Zero();  ///< The same of the drives.
   double pace_ratio = 1.0;                      ///< See TaskState.
 };
-
-inline constexpr double kLineEnds_m = 0.05;
 
 /// What it is reckoned from.
 struct HandAsk {
