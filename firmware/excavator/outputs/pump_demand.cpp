@@ -3,22 +3,11 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/outputs/tuning.hpp"
 #include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/pump_need.hpp"
 
 namespace graben {
-namespace {
-
-/// What soil pushes with changes by about so much of itself within a second.
-constexpr double kLoadShare = 0.6;
-/// Of the relief's pressure: what is asked for beyond goes through it.
-constexpr double kMostOfRelief = 0.95;
-/// Of full swash per second: up as fast as a load grows, down slowly, as the load comes back.
-constexpr double kUp_ps = 1.0;
-constexpr double kDown_ps = 0.1;
-
-}  // namespace
-
 namespace {
 
 /// Takes from all pumps alike what is more than the engine can give.
@@ -50,10 +39,10 @@ void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, 
   }
   const PerPump<double> flow_m3ps = needed_flow_m3ps(
       valve, ask.input,
-      {1.0, profile.control.lambda_rise.reserve_n, kLoadShare, kMostOfRelief * most_pa});
+      {1.0, profile.control.lambda_rise.reserve_n, kPumpLoadShare, kPumpReliefShare * most_pa});
   const double turning_radps = std::max(ask.engine_radps, profile.safety.idle_radps);
   PerPump<double> full_m3ps{};
-  const double down_ps = ask.blocked ? kUp_ps : kDown_ps;
+  const double down_ps = ask.blocked ? kSwashUp_ps : kSwashDown_ps;
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
     full_m3ps[j] = pump_flow_m3ps(profile.pump[j], turning_radps, 1.0);
     const double most_ratio =
@@ -63,7 +52,7 @@ void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, 
         std::max(flow_m3ps[j] / full_m3ps[j], profile.demand_swash.least_ratio), most_ratio);
     double& swash = demand.swash_ratio[j];
     swash = std::clamp(swash, profile.demand_swash.least_ratio, profile.demand_swash.most_ratio);
-    swash = std::clamp(wanted, swash - down_ps * period_s, swash + kUp_ps * period_s);
+    swash = std::clamp(wanted, swash - down_ps * period_s, swash + kSwashUp_ps * period_s);
   }
   keep_within_power(profile.demand_swash, full_m3ps, ask.line_pa,
                     {demand.swash_ratio.data(), profile.pump_count});
