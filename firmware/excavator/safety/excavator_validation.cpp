@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/safety/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 #include "firmware/hydraulics/flow.hpp"
 
@@ -37,11 +38,6 @@ std::array<DriveInputs, kDriveCount> drive_inputs(const ExcavatorInputs& inputs,
   return drives;
 }
 
-/// A window counts for so long; those of all drives come by turns.
-constexpr double kWindowHolds_s = 1.0;
-/// Drives that duties are tried on at once.
-constexpr int kMostTried = 2;
-
 /// False: not all of them may be used, and they stay as they were.
 template <std::size_t count>
 bool read_all(const Signal<std::array<double, count>>& from, const Freshness& fresh,
@@ -67,7 +63,7 @@ void read_hands(const ExcavatorInputs& inputs, const Freshness& fresh, TimeUs no
     valid.faults.add(Fault::kOperatorMissing);
   }
   const auto at_rest = std::count(valid.tried_ratio.begin(), valid.tried_ratio.end(), 0.0);
-  if (tries && kAxisCount - at_rest > kMostTried) {
+  if (tries && kAxisCount - at_rest > kTriedMost) {
     valid.faults.add(Fault::kCommissionBound);
   }
   const Freshness lately(kWindowHolds_s, now_us);
@@ -108,14 +104,6 @@ ExcavatorValid validate(const ExcavatorProfile& profile, DriveRows drives,
   sort_faults(moving, {{Fault::kStrokeJump, Fault::kStrokeMissing}}, valid);
   return valid;
 }
-
-namespace {
-
-constexpr double kSwashServo_s = 0.5;
-/// Lag of a pump that takes its time.
-constexpr double kSwashLag_s = 0.25;
-
-}  // namespace
 
 bool watch_swash(const ExcavatorProfile& profile, bool commanded,
                  const std::array<double, kPumpCount>& wanted_ratio, double period_s,

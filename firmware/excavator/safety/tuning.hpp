@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Judgements about the excavator's validation and watches (excavator_validation.cpp): each was
+/// chosen.
+
+namespace graben {
+
+/// Time that a window of strokes counts: those of all drives come by turns. [s; chosen: not tried]
+inline constexpr double kWindowHolds_s = 1.0;
+/// Drives that duties may be tried on at once. [-; chosen: not tried]
+inline constexpr int kTriedMost = 2;
+/// Time that a swash may be off what was commanded: its servo takes time. [s; chosen: not tried]
+inline constexpr double kSwashServo_s = 0.5;
+/// Lag of the slowest pump that counts as sound. [s; chosen: not tried]
+inline constexpr double kSwashLag_s = 0.25;
+
+}  // namespace graben
