@@ -4,13 +4,11 @@
 #include <algorithm>
 
 #include "firmware/excavator/inputs/tried_duties.hpp"
+#include "firmware/excavator/status/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {
 namespace {
-
-/// A plan that is followed at less than this share of its pace waits.
-constexpr double kWaits = 0.5;
 
 /// It is laid around a path or a plan.
 bool has_tube(Task task) {
@@ -35,7 +33,7 @@ void tell_seen(const ExcavatorModel& machine, const InputState& inputs,
 void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const Motion& motion,
                  const Followed& followed, const FaultSet& degraded, ExcavatorStatus& status) {
   const McvSolution& solution = followed.solution;
-  const bool waits = motion.task.pace_ratio < kWaits;
+  const bool waits = motion.task.pace_ratio < kPlanWaitsPace;
   const bool rises =
       !motion.tries && solution.status == SolveStatus::kOk && followed.of_way() < 1.0;
   status.lambda =
