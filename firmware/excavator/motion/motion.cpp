@@ -2,16 +2,11 @@
 #include "firmware/excavator/motion/motion.hpp"
 
 #include "firmware/excavator/motion/on_oil.hpp"
+#include "firmware/excavator/motion/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {
 namespace {
-
-/// Of the swing's correction, while it is to stand.
-constexpr double kStandsShare = 0.5;
-
-/// Of the path's speed, where a load has held a drive of late.
-constexpr double kWary = 0.5;
 
 double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
   const Eigen::Vector2d at(tip.x_m, tip.y_m);
@@ -69,7 +64,7 @@ void dig(const Known& of, Motion& motion) {
     motion.wanted_mps = by_field(of);
   }
   if (any_wary(of.inputs.watch.drives.blocked)) {
-    motion.wanted_mps *= kWary;
+    motion.wanted_mps *= kWaryPace;
   }
   const double lambda = of.last.flow.lambda;
   motion.corrected_mps = corrected_velocity(of.machine.drives, motion.wanted_mps,
@@ -97,7 +92,7 @@ void follow(const Known& of, const TaskProgram& program, const MotionMemory& sta
   if (swing_mps == 0.0) {
     // A platform that is to stand rings less on weaker corrections.
     motion.corrected_mps =
-        with_swing(motion.corrected_mps, kStandsShare * swing_of(motion.corrected_mps));
+        with_swing(motion.corrected_mps, kSwingStandsShare * swing_of(motion.corrected_mps));
   }
   motion.corrected_mps =
       with_swing(motion.corrected_mps,

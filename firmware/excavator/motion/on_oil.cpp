@@ -3,13 +3,10 @@
 
 #include <cmath>
 
+#include "firmware/excavator/motion/tuning.hpp"
+
 namespace graben {
 namespace {
-
-/// Farther off the path the oil's law gives way to the field, which then leads back.
-constexpr double kFarOff_m = 0.15;
-/// Way of the teeth over a stroke below which a direction is left alone.
-constexpr double kInLine = 0.1;
 
 /// Travels of boom and arm that lead the teeth back to the path with the bucket as it is: what the
 /// bucket's cylinder gives way to its load is theirs too, it is slower. Damped least squares: where
@@ -17,12 +14,12 @@ constexpr double kInLine = 0.1;
 Eigen::Vector2d off_path_m(const RoundedRectangle& path, const KinematicState& now) {
   const Eigen::Vector2d tip_m(now.tip.x_m, now.tip.y_m);
   Eigen::Vector2d off_m = tip_m - path.closest(tip_m).position_m;
-  off_m /= 1.0 + off_m.squaredNorm() / (kFarOff_m * kFarOff_m);
+  off_m /= 1.0 + off_m.squaredNorm() / (kOilFarOff_m * kOilFarOff_m);
   const Eigen::Matrix2d jacobian = now.jacobian.topLeftCorner<2, 2>();
   const Eigen::Vector2d pull = jacobian.transpose() * off_m;
   const Eigen::Matrix2d squared = jacobian.transpose() * jacobian;
-  const double boom = squared(0, 0) + kInLine * kInLine;
-  const double arm = squared(1, 1) + kInLine * kInLine;
+  const double boom = squared(0, 0) + kOilInLine * kOilInLine;
+  const double arm = squared(1, 1) + kOilInLine * kOilInLine;
   const double both = squared(0, 1);
   return Eigen::Vector2d(arm * pull.x() - both * pull.y(), boom * pull.y() - both * pull.x()) /
          (boom * arm - both * both);

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Judgements about motions and their corrections: each was chosen.
+
+namespace graben {
+
+// Motions (motion.cpp)
+
+/// Factor on the swing's correction while the swing is to stand: the platform rings less. [-;
+/// chosen: not tried]
+inline constexpr double kSwingStandsShare = 0.5;
+/// Factor on the path's speed where a load has held a drive of late. [-; chosen: not tried]
+inline constexpr double kWaryPace = 0.5;
+
+// Corrections by the oil's law (on_oil.cpp)
+
+/// Distance off the path beyond which the oil's law gives way to the field, which leads back. [m;
+/// chosen: not tried]
+inline constexpr double kOilFarOff_m = 0.15;
+/// Way of the teeth over a stroke below which a direction is left alone: it damps the least squares
+/// where the teeth are in line with both pins. [-; chosen: not tried]
+inline constexpr double kOilInLine = 0.1;
+
+}  // namespace graben
