@@ -29,18 +29,17 @@ Eigen::Vector3d read_vector(TomlReader& reader, const std::string& key, const Ra
 }
 
 DesignPlane read_design(TomlReader& reader) {
-  constexpr double kLeastUp = 0.2;
   DesignPlane design;
   design.through_m =
       read_vector(reader, "design.through", kPlace, "a point of the design plane: x, y, z");
   design.up = read_direction(reader, "design.normal", 3, "upward normal of the plane: x, y, z");
   design.clearance_m = reader.number("design.clearance", {kLeastClearance_m, 1.0, "m"},
                                      "least distance of a dig's ends from the design");
-  if (design.up.z() < kLeastUp) {
+  if (design.up.z() < kDesignUpLeast) {
     reader.fail("design.normal",
                 fmt::format("must point up; its upward part is {:.3f} of its length; allowed: {} "
                             ".. 1",
-                            design.up.z(), kLeastUp));
+                            design.up.z(), kDesignUpLeast));
   }
   return design;
 }

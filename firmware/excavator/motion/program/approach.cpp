@@ -4,17 +4,11 @@
 #include <algorithm>
 
 #include "firmware/excavator/fences/fence_margin.hpp"
+#include "firmware/excavator/motion/program/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {
 namespace {
-
-/// Of a cylinder's stroke, in from its end.
-constexpr double kNearlyOut = 0.92;
-constexpr double kHalfOut = 0.5;
-/// More than any margin, and what a point goes between two poses: here a distance need not be
-/// exact.
-constexpr double kFar_m = 0.6;
 
 bool inside(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
             const FenceSet& fences, const DriveVector& drives) {
@@ -25,7 +19,7 @@ bool inside(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
     const Fence& fence = fences.fence[static_cast<unsigned>(i)];
     const int count = gap_count(fence, profile.geometry.body);
     for (int k = 0; k < count; ++k) {
-      const FenceGap gap = fence_gap(fence, profile.geometry.body, machine, k, kFar_m);
+      const FenceGap gap = fence_gap(fence, profile.geometry.body, machine, k, kApproachFar_m);
       all = all && gap.distance_m > planned_margin_m(profile.fence, fence, machine, gap, 0.0);
     }
   }
@@ -39,10 +33,10 @@ DriveVector above_start(const ExcavatorProfile& profile, const SwingKinematics& 
     return kinematics.teeth_from_joints(kinematics.joints_from_drive(drives).value);
   };
   const TeethPose start = teeth(program.start);
-  if ((teeth(from).position_m - start.position_m).norm() < kNear_m) {
+  if ((teeth(from).position_m - start.position_m).norm() < kApproachNear_m) {
     return program.start;
   }
-  for (const double lift_m : {kLift_m, 0.5 * kLift_m}) {
+  for (const double lift_m : {kApproachLift_m, 0.5 * kApproachLift_m}) {
     TeethPose lifted = start;
     lifted.position_m.z() += lift_m;
     DriveResult above = kinematics.drive_from_teeth(lifted);
@@ -100,7 +94,7 @@ class ApproachWalk {
     bool free = true;
     for (int i = 0; i < count; ++i) {
       const auto bit = static_cast<std::uint16_t>(1U << static_cast<unsigned>(i));
-      const FenceGap gap = fence_gap(fence, body, motion, i, kFar_m);
+      const FenceGap gap = fence_gap(fence, body, motion, i, kApproachFar_m);
       double left_m =
           gap.distance_m - planned_margin_m(profile_.fence, fence, motion, gap, rate_ps);
       if (search.sample == 0) {
@@ -111,7 +105,7 @@ class ApproachWalk {
       }
       set(search.closes[n], bit, gap.closing_mps > 0.0);
       if ((search.leaves[n] & bit) != 0) {
-        free = free && gap.closing_mps <= kLeaves;
+        free = free && gap.closing_mps <= kApproachLeaves_m;
         set(search.leaves[n], bit, left_m < -kBarTolerance);
       } else {
         free = free && left_m >= -kBarTolerance;
@@ -119,9 +113,6 @@ class ApproachWalk {
     }
     return free;
   }
-
-  /// Closing by the share; less is rounding.
-  static constexpr double kLeaves = 1e-6;
 
   static void set(std::uint16_t& bits, std::uint16_t bit, bool value) {
     bits = static_cast<std::uint16_t>(value ? bits | bit : bits & ~bit);
@@ -184,8 +175,8 @@ ApproachPath approach_path(const ExcavatorProfile& profile, const SwingKinematic
     case ApproachWay::kOver:
     case ApproachWay::kFolded:
     case ApproachWay::kFoldedLow: {
-      const double boom = way == ApproachWay::kFoldedLow ? kHalfOut : kNearlyOut;
-      const double folded = way == ApproachWay::kOver ? -1.0 : kNearlyOut;
+      const double boom = way == ApproachWay::kFoldedLow ? kApproachHalfOut : kApproachNearlyOut;
+      const double folded = way == ApproachWay::kOver ? -1.0 : kApproachNearlyOut;
       go_by(posed(profile, own, boom, folded));
       go_by(with_swing(posed(profile, own, boom, folded), start_swing));
       break;

@@ -9,6 +9,7 @@
 
 namespace graben {
 
+/// Most legs of an approach. [-; size: three places on the way and the start]
 inline constexpr int kApproachLegs = 4;
 
 /// Moves straight in drive space, one after the other. The last ends at the program's start.
@@ -19,13 +20,6 @@ struct ApproachPath {
 };
 
 [[nodiscard]] DrivePlan approach_leg(const ApproachPath& path, const TaskProgram& program, int leg);
-
-/// How far above the first pose an approach comes to, or half of it; teeth nearer than kNear_m to
-/// that pose need none of it.
-inline constexpr double kLift_m = 0.8;
-inline constexpr double kNear_m = 0.3;
-/// Share of the drives' limits that the approach keeps to.
-inline constexpr double kApproachPace = 0.3;
 
 /// Ways that are tried, in this order.
 enum class ApproachWay : std::uint8_t {
@@ -40,6 +34,7 @@ enum class ApproachWay : std::uint8_t {
   kBoomFirst = 6,  ///< The boom to where it is above the first pose, all cylinders, the swing.
 };
 
+/// Ways of an approach. [-; derived: number of ApproachWay's values]
 inline constexpr int kApproachWays = 7;
 
 /// `drives_now` are taken into their ranges.
@@ -63,10 +58,11 @@ struct ApproachSearch {
   std::array<std::uint16_t, kFenceMost> closes{};  ///< At the last sample.
 };
 
-/// Poses that a leg is looked at in, and those of a cycle. Between two of them a point's distance
-/// from a plane has its least within a millimetre of what it is at one of them; before a keep-out
-/// it is bounded by its slope, as the distance from what is convex.
+/// Poses that a leg is looked at in. [-; size: between two of them a point's distance from a plane
+/// has its least within a millimetre of what it is at one; before a keep-out it is bounded by its
+/// slope]
 inline constexpr int kApproachSamples = 64;
+/// Poses that are looked at in a cycle. [-; size: of a cycle's time; 3 before]
 inline constexpr int kSamplesPerCycle = 2;
 
 /// A cycle on; `path` is that of the way that is looked at, from `drives_now` on. One cycle plans a

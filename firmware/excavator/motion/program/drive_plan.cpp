@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/excavator/motion/program/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 #include "firmware/numeric/constants.hpp"
 
@@ -77,13 +78,6 @@ SineRamp ramp_for_speed(double way_m, double speed_mps, double acceleration_mps2
   return {way_m / speed_mps + ramp_s, ramp_s};
 }
 
-namespace {
-
-/// Less of a change than this, m or rad, is rounding: none.
-constexpr double kLeastChange = 1e-9;
-
-}  // namespace
-
 DriveLimits drive_limits(const ExcavatorProfile& profile) {
   DriveLimits limits;
   for (int i = 0; i < kAxisCount; ++i) {
@@ -103,7 +97,7 @@ DriveLimits drive_limits(const ExcavatorProfile& profile) {
 DrivePlan plan_drives(const DriveLimits& limits, const DriveVector& from, const DriveVector& to,
                       const DrivePace& pace) {
   DrivePlan plan{from, to - from, {}};
-  if (!(plan.change.cwiseAbs().maxCoeff() > kLeastChange)) {
+  if (!(plan.change.cwiseAbs().maxCoeff() > kDriveChangeLeast)) {
     return plan;
   }
   // In shares of the move: the whole way is 1.
@@ -111,7 +105,7 @@ DrivePlan plan_drives(const DriveLimits& limits, const DriveVector& from, const 
   double acceleration_ps2 = std::numeric_limits<double>::max();
   for (int i = 0; i < kDriveCount; ++i) {
     const double way = std::abs(plan.change[i]);
-    if (way <= kLeastChange) {
+    if (way <= kDriveChangeLeast) {
       continue;
     }
     const double most = plan.change[i] > 0.0 ? limits.speed_out[i] : limits.speed_in[i];

@@ -8,9 +8,6 @@
 namespace graben {
 namespace {
 
-/// Halvings of a step: 1 / 128 / 2^40 of the line is its last digit.
-constexpr int kHalvings = 40;
-
 bool blind(const DriveMotion& motion) { return motion.blind.kind != BlindKind::kNone; }
 
 /// The attitude's equivalent nearest to what the joints add up to there.
@@ -51,7 +48,7 @@ class Walk {
 
 BlindPlace Walk::begins_between(double seen, const Sample& blind_at) const {
   Sample first = blind_at;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kWalkHalvings; ++i) {
     const Sample middle = sample(0.5 * (seen + first.share));
     if (blind(middle.motion)) {
       first = middle;
@@ -67,7 +64,7 @@ Walk::Sample Walk::turning_point(const Sample& from, const Sample& to, int drive
   double before = from.share;
   double after = to.share;
   Sample middle = from;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kWalkHalvings; ++i) {
     middle = sample(0.5 * (before + after));
     if (blind(middle.motion)) {
       break;

@@ -40,8 +40,10 @@ struct BlindPlace {
   TeethPose teeth;
 };
 
-/// Intervals that a line is walked in.
+/// Intervals that a line or a step is walked in. [-; size: of the walk]
 inline constexpr int kWalkSteps = 128;
+/// Halvings of an interval. [-; size: 1 / 128 / 2^40 of the way is the last digit]
+inline constexpr int kWalkHalvings = 40;
 
 /// Walks the line in kWalkSteps steps, and looks between them wherever a stroke turns and where the
 /// teeth pass the swing axis, so that no range is left for less than a step either. A constant

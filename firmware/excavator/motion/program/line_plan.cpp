@@ -5,14 +5,12 @@
 #include <cmath>
 
 #include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/excavator/motion/program/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
-
-/// A way shorter than this is none.
-constexpr double kLeastWay_m = 1e-6;
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 bool positive(const DriveVector& values) { return values.allFinite() && values.minCoeff() > 0.0; }
@@ -141,7 +139,7 @@ PlanResult plan_line(const SwingKinematics& kinematics, const DriveLimits& limit
   LinePlan& plan = result.plan;
   plan.line = line_between(kinematics, request.from, request.to);
   plan.way_m = way_m(kinematics, plan.line);
-  if (plan.way_m < kLeastWay_m) {
+  if (plan.way_m < kLineWayLeast_m) {
     result.refusal = PlanRefusal::kNoWay;
     return result;
   }

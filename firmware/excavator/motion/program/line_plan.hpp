@@ -51,7 +51,7 @@ struct PlanPeaks {
   DriveVector acceleration_ratio = DriveVector::Zero();
 };
 
-/// Poses that a plan is looked at in each of its three periods.
+/// Steps in which each of a plan's three periods is looked at. [-; size: of the walk]
 inline constexpr int kPeakSteps = 64;
 
 /// Walks a plan that meets no blind spot in 3 kPeakSteps steps of time, with a parabola through

@@ -6,12 +6,10 @@
 
 #include "firmware/excavator/motion/dig/step_round.hpp"
 #include "firmware/excavator/motion/dig/tuning.hpp"
+#include "firmware/excavator/motion/program/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// A step begins where it was planned to if the last one has ended no farther off.
-constexpr double kSamePlace = 1e-4;
 
 /// Along the level part of a dig's line, in the first round's place.
 struct FillLine {
@@ -55,7 +53,8 @@ bool comes_to(const StepUntil& until, const LineProfile& line, const TaskStep& s
   const double left_m = until.offset_m - until.normal.dot(seen.teeth.position_m);
   const double rate_ps = step.line.ramp.at(state.time_s).rate_ps;
   const double speed_mps = rate_ps * until.normal.dot(step.line.line.change.position_m);
-  const double rests_s = state.pace_ratio * state.pace_ratio / (2.0 * kBrakes * line.pace_rate_ps);
+  const double rests_s =
+      state.pace_ratio * state.pace_ratio / (2.0 * kStepBrakes * line.pace_rate_ps);
   return left_m <= std::max(0.0, speed_mps) * rests_s;
 }
 
@@ -69,7 +68,7 @@ bool is_reached(const ExcavatorProfile& profile, const TaskProgram& program, con
     case UntilKind::kForce: {
       const bool holds = seen.force_known && seen.force_n.norm() >= until.most;
       state.force_s = holds ? state.force_s + period_s : 0.0;
-      return state.force_s >= kForceHolds_s;
+      return state.force_s >= kStepForceHolds_s;
     }
     case UntilKind::kPlane:
       return comes_to(until, profile.line, step, seen, state);
@@ -84,7 +83,7 @@ bool rests(const LineProfile& line, double end_s, double advance_s, double perio
            TaskState& state) {
   state.time_s = std::min(
       end_s, state.time_s + std::max(0.0, advance_s > 0.0 ? state.pace_ratio * advance_s : 0.0));
-  state.pace_ratio = std::max(0.0, state.pace_ratio - kBrakes * line.pace_rate_ps * period_s);
+  state.pace_ratio = std::max(0.0, state.pace_ratio - kStepBrakes * line.pace_rate_ps * period_s);
   return state.pace_ratio <= 0.0 || state.time_s >= end_s;
 }
 
@@ -111,7 +110,7 @@ void begin(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
                              next_round(program, state))
                    .step;
   const DriveVector begins = step_motion(kinematics, state.here, 0.0).value;
-  if ((begins - ended.drives).norm() > kSamePlace) {
+  if ((begins - ended.drives).norm() > kStepSamePlace) {
     state.here = step_from(profile, kinematics, state.here, ended.teeth, ended.drives);
     state.off_plan = true;
   }

@@ -8,13 +8,10 @@
 namespace graben {
 
 /// As task_advance() has it, of a program that is not in layers. A step that `until` ends comes to
-/// rest on its line, kBrakes times as fast as its pace changes otherwise; the next one leads on
+/// rest on its line, kStepBrakes times as fast as its pace changes otherwise; the next one leads on
 /// from where the teeth are then.
 void steps_advance(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
                    const TaskProgram& program, double advance_s, double period_s,
                    const CutSeen& seen, TaskState& state);
 
-inline constexpr double kBrakes = 4.0;
-/// A force ends a step once it has been there for so long.
-inline constexpr double kForceHolds_s = 0.2;
 }  // namespace graben

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/motion/program/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {
@@ -21,12 +22,9 @@ DriveVector bounded(DriveRows drives, DriveVector travel_m) {
   return travel_m;
 }
 
-constexpr double kStands_mps = 0.02;
-
 /// A drive that a move hardly moves is left to its corrections: its load would hold up all others.
 DriveVector without_trifles(const DriveVector& velocity_mps) {
-  constexpr double kTrifle = 1e-3;
-  const double least_mps = kTrifle * velocity_mps.cwiseAbs().maxCoeff();
+  const double least_mps = kMoveTrifle * velocity_mps.cwiseAbs().maxCoeff();
   return (velocity_mps.array().abs() < least_mps).select(0.0, velocity_mps);
 }
 
@@ -37,7 +35,7 @@ double behind_m(const SwingKinematics& kinematics, const TaskAim& aim,
   const Eigen::Vector3d& velocity_mps =
       planned.point[static_cast<unsigned>(MachinePoint::kTeeth)].velocity_mps;
   const double speed_mps = velocity_mps.norm();
-  if (planned.status != ReachStatus::kOk || speed_mps < kStands_mps) {
+  if (planned.status != ReachStatus::kOk || speed_mps < kTeethStand_mps) {
     return due_less_at_m.norm();
   }
   const double along_m = due_less_at_m.dot(velocity_mps) / speed_mps;
@@ -90,16 +88,13 @@ TaskProgress progress_of(const TaskProgram& program, const TaskMemory& memory, c
   memory.state.dug = dug;
 }
 
-/// The operator may have moved it a little meanwhile; from elsewhere the task begins anew.
-constexpr double kStillThere_m = 0.1;
-
 bool goes_on_from_wait(const SwingKinematics& kinematics, const TaskProgram& program,
                        std::uint8_t number, const DriveVector& drives, const TaskMemory& memory) {
   if (memory.runs || !memory.state.word || memory.number != number) {
     return false;
   }
   const TeethPose waits = teeth_of(kinematics, current_step(program, memory.state).drives.from);
-  return (teeth_of(kinematics, drives).position_m - waits.position_m).norm() < kStillThere_m;
+  return (teeth_of(kinematics, drives).position_m - waits.position_m).norm() < kWaitStillThere_m;
 }
 
 }  // namespace

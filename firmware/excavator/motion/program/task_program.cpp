@@ -7,19 +7,14 @@
 #include "firmware/excavator/motion/dig/layer_plan.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/dig/step_round.hpp"
+#include "firmware/excavator/motion/program/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {
 namespace {
 
-constexpr double kSameLength = 1e-6;  ///< A normal's, against 1.
-/// Steeper than this, the cosine to the vertical, raising straight up leads too far.
-constexpr double kLeastUp = 0.2;
-constexpr double kSame_m = 1e-6;
-constexpr double kSame_rad = 1e-6;
-
 bool unit(const Eigen::Vector3d& normal) {
-  return normal.allFinite() && std::abs(normal.norm() - 1.0) < kSameLength;
+  return normal.allFinite() && std::abs(normal.norm() - 1.0) < kNormalLengthOff;
 }
 
 bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
@@ -42,7 +37,7 @@ bool usable(const FenceSet& fences, int most) {
 }
 
 bool usable(const DesignPlane& design) {
-  return design.through_m.allFinite() && unit(design.up) && design.up.z() > kLeastUp &&
+  return design.through_m.allFinite() && unit(design.up) && design.up.z() > kDesignUpLeast &&
          not_negative(design.clearance_m);
 }
 
@@ -72,7 +67,6 @@ bool usable(const StepRequest& step) {
 
 /// A full bucket is known by what it holds and by what the edge has passed on its way.
 bool can_fill(const ExcavatorProfile& profile, const ProgramRequest& request) {
-  constexpr double kLevel_m = 0.3;
   const ExcavatorBody& body = profile.geometry.body;
   TeethPose from = request.start;
   int fills = 0;
@@ -81,7 +75,7 @@ bool can_fill(const ExcavatorProfile& profile, const ProgramRequest& request) {
     const StepRequest& step = request.step[static_cast<unsigned>(i)];
     if (step.until.kind == UntilKind::kFull) {
       const Eigen::Vector3d way_m = step.to.position_m - from.position_m;
-      can = can && way_m.head<2>().norm() >= kLevel_m && step.kind == StepKind::kDig &&
+      can = can && way_m.head<2>().norm() >= kFillLevelWay_m && step.kind == StepKind::kDig &&
             body.known() && body.capacity_m3 > 0.0;
       ++fills;
     }
@@ -94,8 +88,8 @@ bool can_fill(const ExcavatorProfile& profile, const ProgramRequest& request) {
 constexpr SineRamp kWaitRamp{1.0, 0.5};
 
 bool same(const TeethPose& a, const TeethPose& b) {
-  return (a.position_m - b.position_m).norm() < kSame_m &&
-         std::abs(a.attitude_rad - b.attitude_rad) < kSame_rad;
+  return (a.position_m - b.position_m).norm() < kSamePose_m &&
+         std::abs(a.attitude_rad - b.attitude_rad) < kSamePose_rad;
 }
 
 bool usable_layers(const ExcavatorProfile& profile, const ProgramRequest& request) {
@@ -263,7 +257,7 @@ bool Planning::plan_step(int number) {
   if (!planned) {
     return false;
   }
-  if (!profile_.has_swing() && std::abs(swing_of(drives_)) > kSame_rad) {
+  if (!profile_.has_swing() && std::abs(swing_of(drives_)) > kSamePose_rad) {
     return refuse(ProgramRefusal::kNoSwing, number, {{}, 1.0, pose(number + 1)});
   }
   return keeps_free(step, number);
@@ -275,7 +269,7 @@ bool Planning::strips_in_range() {
     const double swing_rad = swing_of(drives_) + plan.first_rad + strip * plan.strip_rad;
     const bool inside = profile_.has_swing() ? swing_rad <= profile_.swing.left_end_rad &&
                                                    swing_rad >= profile_.swing.right_end_rad
-                                             : std::abs(swing_rad) <= kSame_rad;
+                                             : std::abs(swing_rad) <= kSamePose_rad;
     if (!inside) {
       return refuse(profile_.has_swing() ? ProgramRefusal::kSwingEnd : ProgramRefusal::kNoSwing, 0,
                     {{}, 1.0, pose(1)});
@@ -333,7 +327,7 @@ ProgramResult Planning::run() {
     refuse(ProgramRefusal::kBlindSpot, 0, {start.blind, 0.0, pose(0)});
     return result_;
   }
-  if (!profile_.has_swing() && std::abs(swing_of(start.value)) > kSame_rad) {
+  if (!profile_.has_swing() && std::abs(swing_of(start.value)) > kSamePose_rad) {
     refuse(ProgramRefusal::kNoSwing, 0, {{}, 0.0, pose(0)});
     return result_;
   }

@@ -8,10 +8,13 @@
 #include "firmware/excavator/motion/dig/dig_layers.hpp"
 #include "firmware/excavator/motion/program/drive_plan.hpp"
 #include "firmware/excavator/motion/program/line_plan.hpp"
+#include "firmware/excavator/motion/program/tuning.hpp"
 
 namespace graben {
 
+/// Most steps of a program. [-; size: of TaskProgram]
 inline constexpr int kStepMost = 24;
+/// Most programs that can be chosen. [-; size: of TaskBook]
 inline constexpr int kTaskMost = 4;
 
 /// What ends a straight step before its planned end; kEnd: nothing does.
@@ -165,9 +168,6 @@ struct BarredPlace : BarredBy {
   ProgramRefusal why = ProgramRefusal::kNone;  ///< kNone: there is none.
   BlindPlace place;  ///< Its share to 1e-12; `blind` only where the points are not known.
 };
-
-/// A range or a fence may be passed by this much, m or rad: rounding of a pose that stands on it.
-inline constexpr double kBarTolerance = 1e-6;
 
 /// Drives of a step at this share of it, and their derivatives by the share.
 [[nodiscard]] DriveMotion step_motion(const SwingKinematics& kinematics, const TaskStep& step,

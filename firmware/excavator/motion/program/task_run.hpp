@@ -6,6 +6,7 @@
 #include "firmware/excavator/motion/dig/dig_state.hpp"
 #include "firmware/excavator/motion/program/approach.hpp"
 #include "firmware/excavator/motion/program/task_program.hpp"
+#include "firmware/excavator/motion/program/tuning.hpp"
 
 namespace graben {
 
@@ -15,6 +16,7 @@ enum class TaskPhase : std::uint8_t {
   kDone = 2,  ///< Stands at the last pose.
 };
 
+/// Pieces of a dig's line whose ground is kept. [-; size: of StepFill]
 inline constexpr int kFillBins = 24;
 
 /// What a dig has taken, by where its edge has passed.
@@ -76,24 +78,9 @@ struct TaskAim {
   TeethLine line;
 };
 
-/// A step has arrived with the teeth so near to its end for so long, a platform that swings through
-/// its place is not there yet: a line; a move (or the approach) that a line follows, whose
-/// beginning is the move's end; any other move.
-inline constexpr double kSettled_m = 5e-3;
-inline constexpr double kLineBegins_m = 0.01;
-inline constexpr double kMoveArrived_m = 0.02;
-inline constexpr double kCalm_s = 0.2;
-/// So long it is waited for. Then a step that is this near goes on, and is counted as missed: what
-/// is left is for the next step to correct, whose way was looked at from that end and whose fences
-/// hold in motion. One that is farther off does not go on at all: the next step may rely on it, as
-/// a swing does on the lift before it. It waits until the stall watch stops the machine.
-inline constexpr double kArriveMost_s = 10.0;
-inline constexpr double kMissedMost_m = 0.03;
-inline constexpr int kMissedCount = 250;  ///< More are not counted.
-/// A move of a program in layers has arrived so near, or after so long: it leads on from wherever
-/// it ends.
-inline constexpr double kMoveSettled_m = 0.05;
-inline constexpr double kSettleMost_s = 2.0;
+/// Most missed steps that are counted. [-; standard: a byte of J1939 counts so far, NotArrived of
+/// TaskStatus]
+inline constexpr int kMissedCount = 250;
 
 /// At the beginning of the approach that search_approach() has found, planned from where the
 /// machine stands now. It can't meet a blind spot. In motion the soft limit holds it before fences.
@@ -119,10 +106,6 @@ inline constexpr double kSettleMost_s = 2.0;
 
 /// The round that a step which ends where the next one begins leads to.
 [[nodiscard]] int next_round(const TaskProgram& program, const TaskState& state);
-
-/// A round whose dig was ended by what it met, its force or a full bucket, is done again no deeper:
-/// so often in a row, then what is left stays up.
-inline constexpr int kAgainMost = 8;
 
 /// True while a straight line of the teeth is being followed; else a move of the drives, or none.
 [[nodiscard]] bool on_line(const TaskProgram& program, const TaskState& state);

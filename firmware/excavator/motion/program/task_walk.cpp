@@ -10,9 +10,7 @@
 namespace graben {
 namespace {
 
-/// Halvings of a step: 1 / 128 / 2^40 of the way is its last digit.
-constexpr int kWalkHalvings = 40;
-/// Both ends of the swing, and all gaps before all fences.
+/// Most distances at one place. [-; size: both ends of the swing, and all gaps before all fences]
 constexpr int kBarMost = 2 + kFenceMost * kGapMost;
 
 /// A distance less its margin.
