@@ -49,6 +49,7 @@ graben_thorough("closed_loop_areas: one of nine" closed_loop_areas_every)
 graben_thorough("closed_loop_areas" closed_loop_fixed_passes)
 graben_thorough("closed_loop_autodig; unit tests of the load's observer" closed_loop_tip_load)
 graben_thorough("closed_loop_bounds has both sizes" closed_loop_scaled)
+graben_thorough("closed_loop_trench: the smallest and the largest" closed_loop_trench_every)
 graben_thorough("closed_loop_designs, closed_loop_tilt" closed_loop_curves)
 graben_thorough("unit_identify_*, unit_commission" cli_identify cli_identify_log)
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/motion/dig/tuning.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 /// 2 m of ground that stands 0.5 m over its design, for a bucket of 1 m.
@@ -128,7 +129,7 @@ TEST(goes_down_cut_by_cut) {
     assert_true(state.cut.height_m >= 0.0);
     assert_true(state.cut.thin == (state.cut.height_m == 0.0));
     if (state.cut.thin) {
-      assert_true(last_m <= kLastLayer_share * plan.bucket_m + kRough_m + 1e-6);
+      assert_true(last_m <= kLastLayer_share * whole.bucket_m + kRough_m + 1e-6);
     }
     last_m = state.cut.height_m;
     const double got_m3 = cut_through(whole, last_m, state);
@@ -232,6 +233,52 @@ TEST(depth_follows_the_force) {
     next_cut(whole, {2.0, 0.4}, state);
   }
   assert_true(state.depth_m > 0.0);
+}
+
+/// However heavy it was on average: what it got says how much too deep it was.
+TEST(a_cut_that_gave_way_is_less_deep_at_once) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  const double first_m = state.depth_m;
+  const double wanted_m3 = std::min(state.cut.volume_m3, filling_m3(whole, state));
+  next_cut(whole, {0.7, 0.4 * wanted_m3}, state);
+  assert_near(state.depth_m, 0.6 * first_m, 1e-9);
+  state = undug(whole);
+  next_cut(whole, {0.7, 0.02 * wanted_m3}, state);
+  assert_near(state.depth_m, kShallowest * first_m, 1e-9);
+  // Nothing tells of the depth of a light one, or of one that was stopped where it went in.
+  for (const CutEnd& end : {CutEnd{0.3, 0.02, 1.0}, CutEnd{0.7, 0.02, 0.1}}) {
+    state = undug(whole);
+    next_cut(whole, end, state);
+    assert_true(state.depth_m >= first_m);
+  }
+}
+
+/// A machine that is too weak for the least depth presses harder, within what its cylinders hold.
+TEST(a_weak_machine_presses_harder) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  double last_m = state.depth_m;
+  for (int n = 0; n < 12; ++n) {
+    next_cut(whole, {1.1, 0.05}, state);
+    assert_true(state.force == 1.0 || last_m <= kHarderFrom * kDepthLeast_share * whole.bucket_m);
+    last_m = state.depth_m;
+  }
+  assert_near(state.depth_m, kDepthLeast_share * whole.bucket_m, 1e-9);
+  assert_near(state.force * kForceUsed, kForceMost, 1e-9);
+}
+
+/// Broken off, it says nothing of its depth, and leaves nothing up.
+TEST(an_abandoned_cut_is_cut_again) {
+  const LayerPlan whole = plan();
+  CutState state = undug(whole);
+  const CutState first = state;
+  state.filled_m3 = 0.1;
+  repeat(10, [&] { abandon_cut(whole, state); });
+  assert_true(state.height_m == first.height_m);
+  assert_near(state.depth_m, first.depth_m, 0.0);
+  assert_near(state.loaded_m3, 0.1, 1e-12);
+  assert_false(state.met);
 }
 
 /// A cut that brings more than its edge has passed is made again, so often and no more.
