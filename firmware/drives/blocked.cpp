@@ -4,51 +4,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/tuning.hpp"
+
 namespace graben {
 namespace {
-
-/// Of the line's pressure and of its relief's, on the side that is fed: straining from the one on,
-/// until under the other. Lifting and digging take less of the relief's.
-constexpr double kStrains = 0.8;
-constexpr double kStrainsYet = 0.7;
-constexpr double kOfRelief = 0.7;
-/// Of the speed that is asked for: standing under the one, moving over the other.
-constexpr double kStands = 0.2;
-constexpr double kMoves = 0.5;
-/// Where less is asked, lambda is as good as 0: then that little is standing.
-constexpr double kLeastAsked_mps = 0.002;
-constexpr double kStill_mps = 0.001;
-constexpr double kFilter_s = 0.1;
-constexpr double kKnown_s = 0.2;
-constexpr double kEase_s = 0.3;
-/// Of the relief's pressure.
-constexpr double kHard = 0.85;
-constexpr double kLetOff = 0.75;
-constexpr double kPushes_s = 0.1;
-constexpr double kLetsOff_s = 1.0;  ///< At most.
-constexpr double kRests_s = 1.5;
-constexpr double kLetsOff_mps = 0.03;
-constexpr double kWary_s = 6.0;
-constexpr double kPast_m = 0.02;
-constexpr double kGaveWay_m = 0.005;
 
 int sign_of(double value) { return value > 0.0 ? 1 : (value < 0.0 ? -1 : 0); }
 
 /// Low-passes, and what they say.
 bool strains_and_stands(double relief_pa, const ValidDrive& seen, double asked_mps, double line_pa,
                         double period_s, BlockedState& state) {
-  const double newest = period_s / (period_s + kFilter_s);
+  const double newest = period_s / (period_s + kBlockedFilter_s);
   const double inlet_pa = state.way > 0 ? seen.cap_pressure_pa : seen.rod_pressure_pa;
   const double moved_m = state.way * (seen.stroke_m - state.stroke_m);
   state.inlet_pa += newest * (inlet_pa - state.inlet_pa);
   state.asked_mps += newest * (state.way * asked_mps - state.asked_mps);
   state.speed_mps += newest * ((period_s > 0.0 ? moved_m / period_s : 0.0) - state.speed_mps);
-  const double line_share = state.strains ? kStrainsYet : kStrains;
+  const double line_share = state.strains ? kBlockedStrainsYet : kBlockedStrains;
   state.strains = line_pa > 0.0 && relief_pa > 0.0 && state.inlet_pa >= line_share * line_pa &&
-                  state.inlet_pa >= kOfRelief * relief_pa;
-  const double share = state.side == 0 ? kStands : kMoves;
-  const bool stands = state.asked_mps > kLeastAsked_mps ? state.speed_mps < share * state.asked_mps
-                                                        : state.speed_mps < kStill_mps;
+                  state.inlet_pa >= kBlockedReliefShare * relief_pa;
+  const double share = state.side == 0 ? kBlockedStandsShare : kBlockedMovesShare;
+  const bool stands = state.asked_mps > kBlockedLeastAsked_mps
+                          ? state.speed_mps < share * state.asked_mps
+                          : state.speed_mps < kBlockedStill_mps;
   return state.strains && stands;
 }
 
@@ -73,18 +51,18 @@ void ease_pressure(double relief_pa, double period_s, BlockedState& state) {
   state.for_s += period_s;
   switch (state.easing) {
     case Easing::kPushes:
-      if (state.for_s >= kPushes_s && state.inlet_pa >= kHard * relief_pa) {
+      if (state.for_s >= kBlockedPushes_s && state.inlet_pa >= kBlockedHardShare * relief_pa) {
         go_on(Easing::kLetsOff, state);
-        state.wary_s = kWary_s;
+        state.wary_s = kBlockedWary_s;
       }
       return;
     case Easing::kLetsOff:
-      if (state.inlet_pa <= kLetOff * relief_pa || state.for_s >= kLetsOff_s) {
+      if (state.inlet_pa <= kBlockedLetOffShare * relief_pa || state.for_s >= kBlockedLetsOff_s) {
         go_on(Easing::kRests, state);
       }
       return;
     case Easing::kRests:
-      if (state.for_s >= kRests_s) {
+      if (state.for_s >= kBlockedRests_s) {
         begin(state.way, state);
       }
       return;
@@ -95,8 +73,8 @@ void follow(const DriveRow& drive, const ValidDrive& seen, double asked_mps, dou
             double period_s, BlockedState& state) {
   const bool held =
       strains_and_stands(drive.watch.relief_pa, seen, asked_mps, line_pa, period_s, state);
-  state.stood_s = held ? std::min(state.stood_s + period_s, kKnown_s) : 0.0;
-  if (state.side == 0 && state.stood_s >= kKnown_s) {
+  state.stood_s = held ? std::min(state.stood_s + period_s, kBlockedKnown_s) : 0.0;
+  if (state.side == 0 && state.stood_s >= kBlockedKnown_s) {
     state.side = state.way;
     state.last_side = state.way;
     state.held_at_m = seen.stroke_m;
@@ -105,7 +83,7 @@ void follow(const DriveRow& drive, const ValidDrive& seen, double asked_mps, dou
   if (state.side == 0) {
     return;
   }
-  const bool gave_way = state.side * (seen.stroke_m - state.held_at_m) > kGaveWay_m;
+  const bool gave_way = state.side * (seen.stroke_m - state.held_at_m) > kBlockedGaveWay_m;
   if (gave_way || (state.easing == Easing::kPushes && !held)) {
     begin(state.way, state);
     return;
@@ -126,17 +104,17 @@ void next_blocked(DriveRows drives, Span<const ValidDrive> seen, const BlockedAs
       follow(drives[i], seen[i], ask.asked_mps[i], ask.line_pa[i], period_s, drive);
     }
     drive.stroke_m = seen[i].stroke_m;
-    const bool past = drive.last_side * (seen[i].stroke_m - drive.held_at_m) > kPast_m;
+    const bool past = drive.last_side * (seen[i].stroke_m - drive.held_at_m) > kBlockedPast_m;
     const double passed_s = drive.side == 0 ? period_s : 0.0;
     drive.wary_s = past ? 0.0 : std::max(0.0, drive.wary_s - passed_s);
-    const double step = period_s / kEase_s;
+    const double step = period_s / kBlockedEase_s;
     drive.less = std::clamp(drive.less + (drive.side != 0 ? step : -step), 0.0, 1.0);
   }
 }
 
 double eased_mps(const BlockedState& state, double wanted_mps, double corrected_mps) {
   if (state.side != 0 && state.easing == Easing::kLetsOff) {
-    return -state.side * kLetsOff_mps;
+    return -state.side * kBlockedLetsOff_mps;
   }
   const int side = state.last_side;
   const bool rests = state.side != 0 && state.easing == Easing::kRests;

@@ -5,38 +5,24 @@
 
 #include "firmware/core/fault_set.hpp"
 #include "firmware/drives/drive_validation.hpp"
+#include "firmware/drives/tuning.hpp"
 
 namespace graben {
-
-/// From a duty to the last of what it does, of the slowest machine: 0.25 s of dead time, two lags
-/// of 0.15 s, and its frames.
-inline constexpr double kUnderWay_s = 0.6;
-/// Least time to stop a drive in: dead time, lags, and what its speed is measured late by.
-inline constexpr double kStops_s = 0.5;
-/// Until a drive has come to rest on its oil, s.
-inline constexpr double kComesToRest_s = 0.4;
-/// How far a drive may come out of its window before that is a fault, m.
-inline constexpr double kOutside_m = 0.05;
-/// Slower than this, m/s, an end of the cylinder may be met that the window reaches.
-inline constexpr double kTouch_mps = 0.03;
-/// For so long a drive may be pushed against it.
-inline constexpr double kTouch_s = 1.0;
-/// So near to an end a drive that stands is at it, whatever its zero is off, m.
-inline constexpr double kEndZone_m = 0.015;
 
 /// State of one drive from cycle to cycle.
 struct CommissionState {
   bool begun = false;
   double stroke_m = 0.0;
-  double slow_m = 0.0;                   ///< Stroke, low-passed.
-  double speed_mps = 0.0;                ///< Late by the same.
-  double since_extend_s = kUnderWay_s;   ///< Since the last duty that extends ...
-  double since_retract_s = kUnderWay_s;  ///< ... and that retracts; as long as it matters.
-  double still_for_s = kComesToRest_s;   ///< Since both, beyond kUnderWay_s; as long as it matters.
-  double wrong_m = 0.0;                  ///< Gone against the duty.
-  double free_m = 0.0;                   ///< Gone without any.
-  double whole_m = 0.0;                  ///< The same as either, however slowly, since it counts.
-  double cap_pa = 0.0;                   ///< Low-passed ...
+  double slow_m = 0.0;                        ///< Stroke, low-passed.
+  double speed_mps = 0.0;                     ///< Late by the same.
+  double since_extend_s = kGuardUnderWay_s;   ///< Since the last duty that extends ...
+  double since_retract_s = kGuardUnderWay_s;  ///< ... and that retracts; as long as it matters.
+  /// Since both, beyond kGuardUnderWay_s; as long as it matters.
+  double still_for_s = kGuardComesToRest_s;
+  double wrong_m = 0.0;  ///< Gone against the duty.
+  double free_m = 0.0;   ///< Gone without any.
+  double whole_m = 0.0;  ///< The same as either, however slowly, since it counts.
+  double cap_pa = 0.0;   ///< Low-passed ...
   double rod_pa = 0.0;
   double rest_cap_pa = 0.0;  ///< ... and before the duty began.
   double rest_rod_pa = 0.0;
@@ -77,9 +63,9 @@ struct CommissionResult {
 ///
 /// Without a window the duty is 0. Where the drive is outside, or will be before it can be stopped,
 /// it is 0 towards there until that is no longer asked for; the other way is free. An end of the
-/// cylinder that the window reaches may be met slowly, and pushed against for kTouch_s.
+/// cylinder that the window reaches may be met slowly, and pushed against for kGuardTouch_s.
 ///
-/// kCommissionBound: gone further outside than kOutside_m, or faster than the window allows.
+/// kCommissionBound: gone further outside than kGuardOutside_m, or faster than the window allows.
 /// kWrongDirection: gone against its duty by 30 mm, since none of the other sign can be under way.
 /// kUncommandedMotion: gone by 30 mm although nothing is under way and it has had time to come to
 /// rest. What creeps at less than 6 mm/s is forgotten, a load that sinks while its spool is at its

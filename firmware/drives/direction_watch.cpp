@@ -4,18 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/tuning.hpp"
+
 namespace graben {
 namespace {
-
-/// Of both sides' zeros together.
-constexpr double kZero_pa = 1.2e6;
-
-/// Of the spool's travel: where its dead band ends is known no better. Nearer to its edge a spool
-/// may be closed, and what its drive does then is not its doing.
-constexpr double kEdgeBand = 0.03;
-
-/// A drive that shakes on soft oil has gone with its spool before it swings back: so many bounds.
-constexpr double kCredit = 4.0;
 
 int side_of(const DriveRow& drive, double spool_ratio) {
   if (std::abs(spool_ratio) <= drive.answer.towards(spool_ratio).edge()) {
@@ -26,14 +18,14 @@ int side_of(const DriveRow& drive, double spool_ratio) {
 
 /// For certain. A platform swings back on the oil that a closed spool has shut in.
 bool is_open(const DriveRow& drive, double spool_ratio) {
-  return std::abs(spool_ratio) > drive.answer.towards(spool_ratio).edge() + kEdgeBand;
+  return std::abs(spool_ratio) > drive.answer.towards(spool_ratio).edge() + kDirectionEdgeBand;
 }
 
 /// Its own oil pushes it against its spool.
 bool pushed_back(const DriveRow& drive, const ValidDrive& seen, int side) {
   const double push_n =
       drive.extend_area_m2 * seen.cap_pressure_pa - drive.retract_area_m2 * seen.rod_pressure_pa;
-  return side * push_n < -kZero_pa * drive.extend_area_m2;
+  return side * push_n < -kDirectionZero_pa * drive.extend_area_m2;
 }
 
 void follow(const DriveRow& drive, const ValidDrive& seen, DirectionState& state) {
@@ -49,7 +41,7 @@ void follow(const DriveRow& drive, const ValidDrive& seen, DirectionState& state
   state.stroke_m = seen.stroke_m;
   state.turned = state.turned || with_m >= 0.0;
   if (with_m > 0.0) {
-    state.wrong_m = std::max(-kCredit * drive.watch.wrong_m, state.wrong_m - with_m);
+    state.wrong_m = std::max(-kDirectionCredit * drive.watch.wrong_m, state.wrong_m - with_m);
   } else if (state.turned && is_open(drive, seen.spool_ratio) && pushed_back(drive, seen, side)) {
     state.wrong_m -= with_m;
   }

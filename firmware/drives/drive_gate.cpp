@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "firmware/drives/spool_opening.hpp"
+#include "firmware/drives/tuning.hpp"
 
 namespace graben {
 namespace {

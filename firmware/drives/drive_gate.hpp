@@ -20,10 +20,6 @@ namespace graben {
 void open_spools(DriveRows drives, Span<const double> spool_m, double period_s,
                  Span<double> opening, Span<double> duty_ratio);
 
-/// Largest rise of a duty that is tried, of its whole range per second: full within 40 ms, a step
-/// to whoever looks at a drive's answer.
-inline constexpr double kTriedDutyRate_ps = 25.0;
-
 /// Duties that are tried as they are, on valves of which nothing is known, after those that were
 /// `sent`.
 void step_duties(DriveRows drives, Span<const double> tried_ratio, double period_s,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/tuning.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
@@ -11,9 +12,6 @@ namespace graben {
 double due_mps(const ServoState& servo) { return servo.lag_mps[0][1] + servo.lag_mps[1][1]; }
 
 namespace {
-
-/// Of what a drive is behind that its load holds.
-constexpr double kForget_s = 0.3;
 
 int dead_cycles(double dead_time_s) {
   return static_cast<int>(
@@ -129,7 +127,7 @@ void next_servo(const DriveRow& drive, double asked_mps, double stroke_m, double
   servo.integral_m =
       within(servo.integral_m + unblocked_m(blocked_side, behind_m), drive.feedback.error_most_m);
   if (blocked_side * servo.integral_m > 0.0) {
-    servo.integral_m *= 1.0 - std::min(1.0, period_s / kForget_s);
+    servo.integral_m *= 1.0 - std::min(1.0, period_s / kServoForget_s);
   }
   servo.bias_mps = 0.0;
   servo.stroke_m = stroke_m;

@@ -12,7 +12,8 @@ namespace graben {
 
 /// State from cycle to cycle, of one drive; as constructed, at rest at stroke 0.
 struct ServoState {
-  static constexpr int kMostDelayed = 64;  ///< Cycles of dead time that can be remembered.
+  /// Cycles of dead time that can be remembered. [cycles; size: ring of the last commands, 0.64 s]
+  static constexpr int kMostDelayed = 64;
 
   std::array<double, kMostDelayed> asked_mps{};  ///< Ring of the last commands.
   int newest = 0;

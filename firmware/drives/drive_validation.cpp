@@ -3,13 +3,10 @@
 
 #include <algorithm>
 
+#include "firmware/drives/tuning.hpp"
+
 namespace graben {
 namespace {
-
-/// Of strokes' frames, with what their bus adds, s.
-constexpr double kFramePeriod_s = 0.012;
-/// Of a stroke's speed: less than its noise, carried on, is seen.
-constexpr double kSpeed_s = 0.03;
 
 /// Speed by the frame that came, and the one before.
 double next_speed_mps(const AcceptedStroke& last, const Believed& newest) {
@@ -21,7 +18,7 @@ double next_speed_mps(const AcceptedStroke& last, const Believed& newest) {
     return last.speed_mps;
   }
   const double period_s = static_cast<double>(to.stamp_us - from.stamp_us) / kMicrosecondsPerSecond;
-  const double share = std::min(1.0, period_s / kSpeed_s);
+  const double share = std::min(1.0, period_s / kStrokeSpeed_s);
   return last.speed_mps + share * ((to.value - from.value) / period_s - last.speed_mps);
 }
 
@@ -29,7 +26,7 @@ double next_speed_mps(const AcceptedStroke& last, const Believed& newest) {
 double gone_m(const AcceptedStroke& accepted, const Freshness& fresh) {
   const Signal<double>& stroke = accepted.believed.signal;
   return fresh.holds(stroke)
-             ? accepted.speed_mps * std::min(fresh.age_s(stroke.stamp_us), kFramePeriod_s)
+             ? accepted.speed_mps * std::min(fresh.age_s(stroke.stamp_us), kStrokeFramePeriod_s)
              : 0.0;
 }
 

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 
+#include "firmware/drives/tuning.hpp"
 #include "firmware/safety/common_inputs.hpp"
 
 namespace graben {
 namespace {
-
-/// Duties that are tried may be under way for so long.
-constexpr double kTriedFor_s = 1.0;
 
 /// What is asked of drives whose load may hold them is no way that they must go. One that is held
 /// lets its oil off without moving, and is thrown by it when the load gives way, wherever its spool
@@ -85,8 +83,8 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
   }
   if (!moving) {
     std::fill(state.pressure.begin(), state.pressure.end(), PressurePair{});
-  } else if (watch_pressures(drives, sent.tried ? kEmptyUnknown_pa : kEmpty_pa, seen, period_s,
-                             state.pressure)) {
+  } else if (watch_pressures(drives, sent.tried ? kEmptyUnknown_pa : kEmptyChamber_pa, seen,
+                             period_s, state.pressure)) {
     degrade(Fault::kPressureImplausible, valid);
   }
   return stops;

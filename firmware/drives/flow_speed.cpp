@@ -5,21 +5,10 @@
 #include <cmath>
 
 #include "firmware/drives/spool_opening.hpp"
+#include "firmware/drives/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// Of the spool's travel: where its dead band ends at best, and its sensor.
-constexpr double kTravelBand = 0.035;
-constexpr double kAreaBand = 0.12;
-/// Standard deviations of what is learnt.
-constexpr double kSpreads = 2.75;
-constexpr double kGalleryBand = 0.33;
-/// Of a pressure's zero.
-constexpr double kZero_pa = 1.2e6;
-/// What the return line keeps at most.
-constexpr double kReturn_pa = 0.2e6;
-constexpr double kSupplyBand = 0.2;
 
 /// Shares of the travel outside the dead band.
 struct Opening {
@@ -31,14 +20,15 @@ Opening opening_of(const DriveRow& drive, const LearntValve* learnt, double spoo
   const SpoolAnswer& answer = drive.answer.towards(spool_ratio);
   const double travel_ratio = std::abs(spool_ratio);
   double opening = opening_at(answer, travel_ratio);
-  double band = kTravelBand / least_travel_per_opening(answer, travel_ratio - kTravelBand,
-                                                       travel_ratio + kTravelBand);
+  double band = kFlowTravelBand / least_travel_per_opening(answer, travel_ratio - kFlowTravelBand,
+                                                           travel_ratio + kFlowTravelBand);
   if (is_learnt(drive) && learnt != nullptr) {
     const LearntSide& side = learnt->side(spool_ratio > 0.0);
     opening = opening_by_profile(side, opening);
     // At its edge a valve's exponent says nothing, a little further it does.
-    const double there = std::clamp(opening, 0.0, 1.0) + kSpreads * opening_spread(side, opening);
-    band = std::max(band, kSpreads * opening_spread(side, std::min(there, 1.0)));
+    const double there =
+        std::clamp(opening, 0.0, 1.0) + kFlowSpreads * opening_spread(side, opening);
+    band = std::max(band, kFlowSpreads * opening_spread(side, std::min(there, 1.0)));
   }
   return {std::max(0.0, opening - band), std::max(0.0, opening + band)};
 }
@@ -86,12 +76,12 @@ Way way_of(const DriveRow& drive, const ValidDrive& seen) {
 /// Outflow with the check valve at its widest: it opens only above the pump's line, which has at
 /// least the pressure of what it feeds.
 double most_regenerating_m3ps(const SpoolProfile& spool, double out, const Way& way) {
-  const double drain = (1.0 + kGalleryBand) * spool.c_drain;
-  const double open = drain + (1.0 + kGalleryBand) * spool.c_check;
-  const double sqrt_drained = sqrt_pa(way.drained_pa + kZero_pa);
-  const double fed_pa = std::max(0.0, way.fed_pa - kZero_pa);
+  const double drain = (1.0 + kFlowGalleryBand) * spool.c_drain;
+  const double open = drain + (1.0 + kFlowGalleryBand) * spool.c_check;
+  const double sqrt_drained = sqrt_pa(way.drained_pa + kFlowZero_pa);
+  const double fed_pa = std::max(0.0, way.fed_pa - kFlowZero_pa);
   return std::max(in_series(out, drain) * sqrt_drained,
-                  std::min(out * sqrt_pa(way.drained_pa + kZero_pa - fed_pa),
+                  std::min(out * sqrt_pa(way.drained_pa + kFlowZero_pa - fed_pa),
                            in_series(out, open) * sqrt_drained));
 }
 
@@ -108,17 +98,18 @@ SpeedRange metered_out(const DriveRow& drive, const Way& way, const Opening& ope
   const SpoolMetering& metering = drive.metering;
   const double per_area = metering.discharge * std::sqrt(2.0 / metering.density_kgpm3);
   const double share = std::pow(opening.most, metering.opening_exponent);
-  const double most = (1.0 + kAreaBand) * share;
-  const double least = (1.0 - kAreaBand) * least_share(opening, metering.opening_exponent, share);
+  const double most = (1.0 + kFlowAreaBand) * share;
+  const double least =
+      (1.0 - kFlowAreaBand) * least_share(opening, metering.opening_exponent, share);
   const double most_out = per_area * way.out_m2 * most;
   double least_out = per_area * way.out_m2 * least;
-  double most_m3ps = most_out * sqrt_pa(way.drained_pa + kZero_pa);
+  double most_m3ps = most_out * sqrt_pa(way.drained_pa + kFlowZero_pa);
   if (way.regenerates) {
     most_m3ps = most_regenerating_m3ps(drive.spool, most_out, way);
-    least_out = in_series(least_out, (1.0 - kGalleryBand) * drive.spool.c_drain);
+    least_out = in_series(least_out, (1.0 - kFlowGalleryBand) * drive.spool.c_drain);
   }
-  const double drop_pa = way.drained_pa - kZero_pa - kReturn_pa;
-  const double back_m3ps = per_area * way.in_m2 * most * sqrt_pa(way.fed_pa + kZero_pa);
+  const double drop_pa = way.drained_pa - kFlowZero_pa - kFlowReturn_pa;
+  const double back_m3ps = per_area * way.in_m2 * most * sqrt_pa(way.fed_pa + kFlowZero_pa);
   return {drop_pa > 0.0 ? least_out * sqrt_pa(drop_pa) / way.drained_area_m2
                         : -back_m3ps / way.fed_area_m2,
           most_m3ps / way.drained_area_m2};
@@ -130,8 +121,8 @@ SpeedRange metered_in(const DriveRow& drive, const Way& way, const Opening& open
   const double least_m3ps =
       std::min(opening.least * supply.valve_flow_m3ps, supply.pump_m3prad * engine_radps);
   const double most_m3ps = opening.most * supply.valve_flow_m3ps;
-  return {(1.0 - kSupplyBand) * least_m3ps / way.fed_area_m2,
-          (1.0 + kSupplyBand) * most_m3ps / way.fed_area_m2};
+  return {(1.0 - kFlowSupplyBand) * least_m3ps / way.fed_area_m2,
+          (1.0 + kFlowSupplyBand) * most_m3ps / way.fed_area_m2};
 }
 
 SpeedRange through_valve(const DriveRow& drive, const LearntValve* learnt, const ValidDrive& seen,
@@ -143,7 +134,7 @@ SpeedRange through_valve(const DriveRow& drive, const LearntValve* learnt, const
   const Way way = way_of(drive, seen);
   const SpeedRange along = has_edges(drive) ? metered_out(drive, way, opening)
                                             : metered_in(drive, way, opening, engine_radps);
-  if (std::abs(seen.spool_ratio) <= kTravelBand) {
+  if (std::abs(seen.spool_ratio) <= kFlowTravelBand) {
     // As good as closed: where there is hardly a dead band, it may be open to the other side.
     return {-along.most_mps, along.most_mps};
   }

@@ -4,59 +4,41 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/tuning.hpp"
+
 namespace graben {
 namespace {
 
-/// A side that shows less may be empty: then it neither carries nor pushes.
-constexpr double kEmpty_pa = 1.5e6;
-/// Nearer to the sensors' end a port relief may be open, or the sensor is at its rail.
-constexpr double kNearRail = 0.8;
-constexpr double kSoftest_pa = 0.6e9;
-constexpr double kStiffest_pa = 2.0e9;
-/// Oil in hose and dead volume, as travel.
-constexpr double kHose_m = 0.15;
-/// Newest pressure's share of the low-pass: most of the noise is gone after 30 ms.
-constexpr double kPressureShare = 0.3;
-
-/// More than the sensor's resolution and its noise.
-constexpr double kStill_m = 0.0003;
-constexpr double kForget_s = 10.0;
-/// So often in a row no living pressure sensor shows the same, unless its side is empty.
-constexpr int kSameCycles = 4;
-constexpr double kNoPressure_pa = 0.2e6;
-/// Faster a pressure changes only where something breaks loose, or where its sensor does.
-constexpr double kStep_pa = 4.0e6;
-
 /// Widens the range by what a side's change of pressure moves the drive without any flow.
 void give_way(double change_pa, double oil_m, bool both_ways, double& least_m, double& most_m) {
-  const double soft_m = change_pa * oil_m / kSoftest_pa;
-  const double stiff_m = both_ways ? 0.0 : change_pa * oil_m / kStiffest_pa;
+  const double soft_m = change_pa * oil_m / kFlowSoftest_pa;
+  const double stiff_m = both_ways ? 0.0 : change_pa * oil_m / kFlowStiffest_pa;
   least_m += std::min(soft_m, stiff_m);
   most_m += std::max(soft_m, stiff_m);
 }
 
 void compress(const DriveRow& drive, const ValidDrive& seen, FlowState& state) {
-  const double cap_change_pa = kPressureShare * (seen.cap_pressure_pa - state.cap_pa);
-  const double rod_change_pa = kPressureShare * (seen.rod_pressure_pa - state.rod_pa);
+  const double cap_change_pa = kFlowPressureShare * (seen.cap_pressure_pa - state.cap_pa);
+  const double rod_change_pa = kFlowPressureShare * (seen.rod_pressure_pa - state.rod_pa);
   state.cap_pa += cap_change_pa;
   state.rod_pa += rod_change_pa;
   // A motor's sides are as large wherever it stands.
   const bool grows = drive.control.has_end_stops;
-  const double cap_oil_m = kHose_m + (grows ? seen.stroke_m - drive.least_travel_m : 0.0);
-  const double rod_oil_m = kHose_m + (grows ? drive.most_travel_m - seen.stroke_m : 0.0);
+  const double cap_oil_m = kFlowHose_m + (grows ? seen.stroke_m - drive.least_travel_m : 0.0);
+  const double rod_oil_m = kFlowHose_m + (grows ? drive.most_travel_m - seen.stroke_m : 0.0);
   const bool extends = seen.spool_ratio > 0.0;
   const double drained_pa = extends ? seen.rod_pressure_pa : seen.cap_pressure_pa;
-  if (extends || drained_pa < kEmpty_pa) {
+  if (extends || drained_pa < kFlowEmpty_pa) {
     give_way(rod_change_pa, rod_oil_m, !extends, state.least_m, state.most_m);
   }
-  if (!extends || drained_pa < kEmpty_pa) {
+  if (!extends || drained_pa < kFlowEmpty_pa) {
     give_way(-cap_change_pa, cap_oil_m, extends, state.least_m, state.most_m);
   }
 }
 
 /// One side's pressure is that of a living sensor.
 bool lives(double shown_pa, double last_pa) {
-  return shown_pa != last_pa || shown_pa <= kNoPressure_pa;
+  return shown_pa != last_pa || shown_pa <= kEmptyChamber_pa;
 }
 
 /// False: nothing can be said of this cycle.
@@ -66,14 +48,14 @@ bool may_be_used(const DriveRow& drive, const ValidDrive& seen, FlowState& state
   }
   const bool alive = lives(seen.cap_pressure_pa, state.cap_shown_pa) &&
                      lives(seen.rod_pressure_pa, state.rod_shown_pa);
-  const bool steps = std::abs(seen.cap_pressure_pa - state.cap_shown_pa) > kStep_pa ||
-                     std::abs(seen.rod_pressure_pa - state.rod_shown_pa) > kStep_pa;
-  state.same_cycles = alive ? 0 : std::min(state.same_cycles + 1, kSameCycles);
+  const bool steps = std::abs(seen.cap_pressure_pa - state.cap_shown_pa) > kFlowStep_pa ||
+                     std::abs(seen.rod_pressure_pa - state.rod_shown_pa) > kFlowStep_pa;
+  state.same_cycles = alive ? 0 : std::min(state.same_cycles + 1, kFlowSameCycles);
   state.cap_shown_pa = seen.cap_pressure_pa;
   state.rod_shown_pa = seen.rod_pressure_pa;
   const double drained_pa = seen.spool_ratio > 0.0 ? seen.rod_pressure_pa : seen.cap_pressure_pa;
-  return state.same_cycles < kSameCycles && !steps &&
-         drained_pa < kNearRail * drive.watch.pressure_rail_pa;
+  return state.same_cycles < kFlowSameCycles && !steps &&
+         drained_pa < kFlowNearRail * drive.watch.pressure_rail_pa;
 }
 
 void tell(double late_s, double spool_ratio, double period_s, SpoolSpan& told) {
@@ -122,10 +104,10 @@ void begin(const ValidDrive& seen, FlowState& state) {
 /// A stroke has come: what may have happened since the last one against what it says.
 void compare(const ValidDrive& seen, double period_s, FlowState& state) {
   const double moved_m = seen.stroke_m - state.stroke_m;
-  const double kept = 1.0 - std::min(1.0, period_s / kForget_s);
+  const double kept = 1.0 - std::min(1.0, period_s / kFlowForget_s);
   state.behind_m = kept * std::max(0.0, state.behind_m + state.least_m - moved_m);
   state.ahead_m = kept * std::max(0.0, state.ahead_m + moved_m - state.most_m);
-  if (std::abs(seen.stroke_m - state.still_m) > kStill_m) {
+  if (std::abs(seen.stroke_m - state.still_m) > kFlowStill_m) {
     state.still_m = seen.stroke_m;
     state.extend_m = 0.0;
     state.retract_m = 0.0;

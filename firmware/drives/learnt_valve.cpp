@@ -5,47 +5,12 @@
 #include <cmath>
 
 #include "firmware/drives/spool_opening.hpp"
+#include "firmware/drives/tuning.hpp"
 
 namespace graben {
 namespace {
 
-/// Standard deviations before anything is learnt, and bounds of what is believed.
-constexpr double kEdgeSpread = 0.03;
-constexpr double kBendSpread = 0.09;
-constexpr double kEdgeMost = 0.07;
-constexpr double kBendMost = 0.3;
-/// Their variances grow again by so much a second.
-constexpr double kEdgeDrift_ps = 1e-6;
-constexpr double kBendDrift_ps = 1e-5;
-/// What is compared is low-passed: openings and speeds of 25 cycles say as much as one would.
-constexpr double kFilter_s = 0.15;
-constexpr double kOpeningNoise = 0.1;
-constexpr double kSpeedNoise_mps = 0.02;
-constexpr double kLeastSpeed_mps = 0.010;
-constexpr double kLeastOpening = 0.02;
-/// A drive so much faster or slower than asked is not its valve's doing.
-constexpr double kMostRatio = 4.0;
-/// An opening that is farther from its low-pass changes too fast to be compared.
-constexpr double kSteady = 0.08;
-/// A motor's edge is moved so fast, of the travel outside the dead band, once it has stood so long.
-constexpr double kFeels_ps = 0.10;
-constexpr double kUnmoved_s = 0.4;
-constexpr double kSetsOff_s = 0.5;
-/// Less is asked of what is to stand.
-constexpr double kAskedLeast = 5.0;
-/// Where the bypass closes over the opening as well, a speed hangs on it by so much more.
-constexpr double kSteeper = 4.0;
-/// There, of the opening for a slow speed: at which the drive sets off. And what counts as standing
-/// under an open spool, for how long before an edge is moved, how far in a cycle and how fast.
-constexpr double kSetsOffShare = 0.96;
-constexpr double kFeltOpening = 0.05;
-constexpr double kMostClosing = 0.9;
-constexpr double kLeastAsked_mps = 0.008;
-constexpr double kStands_mps = 0.003;
-constexpr double kStood_s = 0.04;
-constexpr double kStandingShare = 0.3;
-constexpr double kStandingRate_ps = 0.1;
-/// Until an opening and what is learnt at it agree.
+/// Steps until an opening and what is learnt at it agree. [-; size: loop of opening_by_profile()]
 constexpr int kSteps = 4;
 
 /// About -o ln(o), which is the change of the opening by the exponent.
@@ -78,18 +43,18 @@ void learn(double beyond, double opening, double variance, LearntSide& side) {
   const double of_bend = side.covariance * by_edge + side.bend_variance * by_bend;
   const double total = by_edge * of_edge + by_bend * of_bend + variance;
   const double missed = beyond - opening_beyond(side, opening);
-  side.edge = std::clamp(side.edge + of_edge / total * missed, -kEdgeMost, kEdgeMost);
-  side.bend = std::clamp(side.bend + of_bend / total * missed, -kBendMost, kBendMost);
+  side.edge = std::clamp(side.edge + of_edge / total * missed, -kLearntEdgeMost, kLearntEdgeMost);
+  side.bend = std::clamp(side.bend + of_bend / total * missed, -kLearntBendMost, kLearntBendMost);
   side.edge_variance -= of_edge * of_edge / total;
   side.covariance -= of_edge * of_bend / total;
   side.bend_variance -= of_bend * of_bend / total;
 }
 
 void forget(double period_s, LearntSide& side) {
-  side.edge_variance =
-      std::min(side.edge_variance + period_s * kEdgeDrift_ps, kEdgeSpread * kEdgeSpread);
-  side.bend_variance =
-      std::min(side.bend_variance + period_s * kBendDrift_ps, kBendSpread * kBendSpread);
+  side.edge_variance = std::min(side.edge_variance + period_s * kLearntEdgeDrift_ps,
+                                kLearntEdgeSpread * kLearntEdgeSpread);
+  side.bend_variance = std::min(side.bend_variance + period_s * kLearntBendDrift_ps,
+                                kLearntBendSpread * kLearntBendSpread);
 }
 
 /// The low-passes to the side that is asked for, positive.
@@ -101,9 +66,9 @@ LearntSeen along(const LearntSeen& seen, double way) {
 
 bool may_be_compared(const LearntSeen& seen) {
   const double asked_mps = seen.asked.speed_mps;
-  return asked_mps >= kLeastSpeed_mps && seen.asked.opening >= kLeastOpening &&
-         seen.opening >= 0.0 && seen.speed_mps * kMostRatio >= asked_mps &&
-         seen.speed_mps <= kMostRatio * asked_mps;
+  return asked_mps >= kLearntLeastSpeed_mps && seen.asked.opening >= kLearntLeastOpening &&
+         seen.opening >= 0.0 && seen.speed_mps * kLearntMostRatio >= asked_mps &&
+         seen.speed_mps <= kLearntMostRatio * asked_mps;
 }
 
 /// A motor that stands under a spool that should be open: its dead band ends farther out. One that
@@ -116,15 +81,15 @@ void feel_edge(const DriveRow& drive, const LearntSeen& now, double period_s, Le
   const double still_mps = drive.watch.still_mps;
   const bool is_open = way * now.opening > opening_beyond(side, 0.0);
   const bool stands =
-      is_open && asked_mps > kAskedLeast * still_mps && std::abs(speed_mps) < still_mps;
+      is_open && asked_mps > kMotorAskedLeast * still_mps && std::abs(speed_mps) < still_mps;
   valve.unmoved_s = stands ? valve.unmoved_s + period_s : 0.0;
   valve.turning_s = std::abs(speed_mps) < still_mps ? 0.0 : valve.turning_s + period_s;
-  const double step = kFeels_ps * period_s;
-  if (valve.unmoved_s > kUnmoved_s) {
-    side.edge = std::min(side.edge + step, kEdgeMost);
-  } else if (valve.turning_s < kSetsOff_s && asked_mps > 0.0 &&
-             speed_mps > kMostRatio * asked_mps + still_mps) {
-    side.edge = std::max(side.edge - step, -kEdgeMost);
+  const double step = kMotorEdgeRate_ps * period_s;
+  if (valve.unmoved_s > kMotorUnmoved_s) {
+    side.edge = std::min(side.edge + step, kLearntEdgeMost);
+  } else if (valve.turning_s < kMotorSetsOff_s && asked_mps > 0.0 &&
+             speed_mps > kLearntMostRatio * asked_mps + still_mps) {
+    side.edge = std::max(side.edge - step, -kLearntEdgeMost);
   }
 }
 
@@ -136,17 +101,18 @@ void feel_edge(const DriveRow& drive, const LearntSeen& now, double period_s, Le
 void feel_standing(const LearntSeen& mean, const LearntSeen& now, double period_s,
                    LearntValve& valve, LearntSide& side) {
   const double asked = now.asked.opening;
-  const bool is_open = std::min(now.opening, asked) > kFeltOpening;
+  const bool is_open = std::min(now.opening, asked) > kStandingFeltOpening;
   const double asked_mps = std::min(mean.asked.speed_mps, now.asked.speed_mps);
-  const bool stands = is_open && mean.asked.opening < kMostClosing && asked_mps > kLeastAsked_mps &&
-                      std::abs(mean.speed_mps) < kStands_mps;
+  const bool stands = is_open && mean.asked.opening < kStandingMostClosing &&
+                      asked_mps > kStandingLeastAsked_mps &&
+                      std::abs(mean.speed_mps) < kStandingStill_mps;
   valve.unmoved_s = stands ? valve.unmoved_s + period_s : 0.0;
   if (stands_open(valve)) {
     const double edge =
-        (now.opening - kSetsOffShare * asked - side.bend * curve(asked)) / (1.0 - asked);
+        (now.opening - kStandingSetsOffShare * asked - side.bend * curve(asked)) / (1.0 - asked);
     const double farther =
         std::min(kStandingShare * (edge - side.edge), kStandingRate_ps * period_s);
-    side.edge = std::min(side.edge + std::max(0.0, farther), kEdgeMost);
+    side.edge = std::min(side.edge + std::max(0.0, farther), kLearntEdgeMost);
   }
 }
 
@@ -157,7 +123,8 @@ const LearntSide& LearntValve::side(bool extends) const { return extends ? exten
 bool is_learnt(const DriveRow& drive) { return has_edges(drive); }
 
 LearntSide::LearntSide()
-    : edge_variance(kEdgeSpread * kEdgeSpread), bend_variance(kBendSpread * kBendSpread) {}
+    : edge_variance(kLearntEdgeSpread * kLearntEdgeSpread),
+      bend_variance(kLearntBendSpread * kLearntBendSpread) {}
 
 void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk& ask, bool usable,
                  double period_s, LearntValve& valve) {
@@ -167,14 +134,14 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
     valve.late = {};
     valve.seen = {};
     valve.unmoved_s = 0.0;
-    valve.turning_s = kSetsOff_s;
+    valve.turning_s = kMotorSetsOff_s;
     return;
   }
   const double late = share_of_newest(0.5 * drive.answer.towards(ask.speed_mps).lag_s, period_s);
   lag(ask, late, valve.late[0]);
   lag(valve.late[0], late, valve.late[1]);
   const LearntSeen now{valve.late[1], signed_opening(drive, seen.spool_ratio), way_m / period_s};
-  lag(now, share_of_newest(kFilter_s, period_s), valve.seen);
+  lag(now, share_of_newest(kLearntFilter_s, period_s), valve.seen);
   if (!drive.control.has_end_stops) {
     feel_edge(drive, now, period_s, valve);
     return;
@@ -182,8 +149,8 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   const bool extends = valve.seen.asked.speed_mps > 0.0;
   LearntSide& side = extends ? valve.extend : valve.retract;
   forget(period_s, side);
-  const bool steady = std::abs(now.asked.opening - valve.seen.asked.opening) < kSteady &&
-                      std::abs(now.opening - valve.seen.opening) < kSteady;
+  const bool steady = std::abs(now.asked.opening - valve.seen.asked.opening) < kLearntSteady &&
+                      std::abs(now.opening - valve.seen.opening) < kLearntSteady;
   const double way = extends ? 1.0 : -1.0;
   const LearntSeen mean = along(valve.seen, way);
   if (drive.spool.bypass_closes_at > 0.0) {
@@ -192,16 +159,16 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   if (!steady || !may_be_compared(mean)) {
     return;
   }
-  const double steepness = drive.spool.bypass_closes_at > 0.0 ? kSteeper : 1.0;
+  const double steepness = drive.spool.bypass_closes_at > 0.0 ? kLearntSteeper : 1.0;
   const double share = std::pow(mean.speed_mps / mean.asked.speed_mps,
                                 1.0 / (steepness * drive.metering.opening_exponent));
   const double by_profile = std::min(share * mean.asked.opening, 1.0);
-  const double by_speed = by_profile * kSpeedNoise_mps / mean.speed_mps;
-  learn(mean.opening - by_profile, by_profile, kOpeningNoise * kOpeningNoise + by_speed * by_speed,
-        side);
+  const double by_speed = by_profile * kLearntSpeedNoise_mps / mean.speed_mps;
+  learn(mean.opening - by_profile, by_profile,
+        kLearntOpeningNoise * kLearntOpeningNoise + by_speed * by_speed, side);
 }
 
-bool stands_open(const LearntValve& valve) { return valve.unmoved_s > kStood_s; }
+bool stands_open(const LearntValve& valve) { return valve.unmoved_s > kStandingStood_s; }
 
 double learnt_edge_ratio(const DriveRow& drive, const LearntValve& valve, bool extends) {
   const SpoolAnswer& answer = drive.answer.side(extends);
@@ -209,7 +176,7 @@ double learnt_edge_ratio(const DriveRow& drive, const LearntValve& valve, bool e
 }
 
 bool is_edge_known(const LearntSide& side) {
-  return side.edge_variance <= 0.5 * kEdgeSpread * kEdgeSpread;
+  return side.edge_variance <= 0.5 * kLearntEdgeSpread * kLearntEdgeSpread;
 }
 
 double opening_beyond(const LearntSide& side, double opening) {

@@ -4,19 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/tuning.hpp"
+
 namespace graben {
 namespace {
-
-/// The anchor creeps after the stroke: leakage is no uncommanded motion. Nor is a stroke stuck that
-/// is asked, for minutes, for no more than leakage takes.
-constexpr double kForget_s = 10.0;
-/// More than the sensor's resolution and its noise.
-constexpr double kStill_m = 0.0005;
-
-constexpr double kRail_s = 0.3;
-constexpr double kMoved_m = 0.06;
-/// Way is counted in steps of more than a stroke sensor's noise.
-constexpr double kStep_m = 0.002;
 
 /// The duty up to which a spool is closed is where its table begins.
 int direction_of(const DriveRow& drive, double spool_ratio) {
@@ -34,18 +25,18 @@ void follow(double rest_s, int direction, double stroke_m, double period_s, Moti
   if (settling || leads) {
     motion.anchor_m = stroke_m;
   } else {
-    motion.anchor_m += (stroke_m - motion.anchor_m) * std::min(1.0, period_s / kForget_s);
+    motion.anchor_m += (stroke_m - motion.anchor_m) * std::min(1.0, period_s / kMotionForget_s);
   }
 }
 
 void look_for_stillness(double stroke_m, double asked_mps, double period_s, MotionState& motion) {
-  if (std::abs(stroke_m - motion.still_m) > kStill_m) {
+  if (std::abs(stroke_m - motion.still_m) > kMotionStill_m) {
     motion.still_m = stroke_m;
     motion.unmoved_m = 0.0;
   } else if (motion.direction * asked_mps > 0.0) {
     motion.unmoved_m += std::abs(asked_mps) * period_s;
   }
-  motion.unmoved_m -= motion.unmoved_m * std::min(1.0, period_s / kForget_s);
+  motion.unmoved_m -= motion.unmoved_m * std::min(1.0, period_s / kMotionForget_s);
 }
 
 /// True: the sensor is wrong.
@@ -56,12 +47,12 @@ bool follow_pressure(const PressureBounds& bounds, double pressure_pa, double st
     sensor.last_pa = pressure_pa;
     sensor.stroke_m = stroke_m;
     sensor.way_m = 0.0;
-  } else if (step_m > kStep_m) {
+  } else if (step_m > kPressureStep_m) {
     sensor.stroke_m = stroke_m;
     sensor.way_m += step_m;
   }
   sensor.at_rail_s = pressure_pa >= bounds.rail_pa ? sensor.at_rail_s + period_s : 0.0;
-  return sensor.at_rail_s > kRail_s || sensor.way_m > kMoved_m;
+  return sensor.at_rail_s > kPressureRail_s || sensor.way_m > kPressureStuck_m;
 }
 
 }  // namespace

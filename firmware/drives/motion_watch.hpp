@@ -7,6 +7,7 @@
 
 #include "firmware/core/fault_set.hpp"
 #include "firmware/drives/drive_validation.hpp"
+#include "firmware/drives/tuning.hpp"
 
 namespace graben {
 
@@ -43,13 +44,8 @@ struct PressureState {
 /// Of one drive: cap and rod side.
 using PressurePair = std::array<PressureState, 2>;
 
-/// A chamber that cavitates shows one pressure for long, this at most; and where nobody knows the
-/// sensors' zeros yet.
-inline constexpr double kEmpty_pa = 0.2e6;
-inline constexpr double kEmptyUnknown_pa = 1.5e6;
-
 struct PressureBounds {
-  double empty_pa = kEmpty_pa;
+  double empty_pa = kEmptyChamber_pa;
   double rail_pa = 0.0;  ///< From there on it is at its end.
 };
 

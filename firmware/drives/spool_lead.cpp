@@ -5,13 +5,10 @@
 #include <cmath>
 
 #include "firmware/core/time.hpp"
+#include "firmware/drives/tuning.hpp"
 
 namespace graben {
 namespace {
-
-constexpr double kAhead_s = 0.02;
-/// Of the travel; far within any dead band.
-constexpr double kHome = 1e-3;
 
 /// The model after a time at a constant duty.
 SpoolModel after(const SpoolModel& spool, double time_constant_s, double duty_ratio,
@@ -31,12 +28,12 @@ double led_duty(double time_constant_s, double wanted_ratio, const SpoolModel& s
     return wanted_ratio;
   }
   // Sooner than within its time constant a spool takes many times the way that it is to go.
-  const double ahead_s = std::max(kAhead_s, time_constant_s);
+  const double ahead_s = std::max(kLeadAhead_s, time_constant_s);
   const double by_itself = after(spool, time_constant_s, 0.0, ahead_s).travel_ratio;
   const double by_duty = after(spool, time_constant_s, 1.0, ahead_s).travel_ratio - by_itself;
   const double leading = std::clamp((wanted_ratio - by_itself) / by_duty, -1.0, 1.0);
   // To neutral it comes at last, not ever nearer.
-  return wanted_ratio == 0.0 && std::abs(leading) < kHome ? 0.0 : leading;
+  return wanted_ratio == 0.0 && std::abs(leading) < kLeadHome ? 0.0 : leading;
 }
 
 SpoolModel spool_after(double time_constant_s, double sent_ratio, const SpoolModel& spool) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/tuning.hpp"
+
 namespace graben {
 namespace {
 
@@ -14,8 +16,9 @@ CommandHistory::Range widened(CommandHistory::Range range, const double* begin, 
   return range;
 }
 
-/// A spool's frame comes every second cycle: what it says is up to so many old.
-constexpr int kFrameCycles = 2;
+/// Cycles by which a spool's frame may be old. [cycles; derived: its frame comes every 20 ms, two
+/// kCyclePeriod_s]
+constexpr int kSpoolFrameCycles = 2;
 
 /// One lag of both bounds.
 CommandHistory::Range lagged(const CommandHistory::Range& last,
@@ -24,17 +27,14 @@ CommandHistory::Range lagged(const CommandHistory::Range& last,
           std::max(towards.most, last.most + newest_share * (towards.most - last.most))};
 }
 
-/// Of the slowest spool of a valve that is not known.
-constexpr double kUnknownStarts_s = 0.45;
-constexpr double kUnknownLag_s = 0.16;
-
 /// Of one spool: it is stuck.
 bool follow(const DriveRow& drive, const SentCommand& command, int i, double spool_ratio,
             int cycles, bool received, SpoolState& state) {
   const double duty_ratio = command.duty_ratio[i];
-  const double starts_s = std::max(spool_starts_s(drive), command.tried ? kUnknownStarts_s : 0.0);
-  const double lag_s = std::max(spool_lag_s(drive), command.tried ? kUnknownLag_s : 0.0);
-  const int starting = cycles_under_way(starts_s + kFrameCycles * kCyclePeriod_s);
+  const double starts_s =
+      std::max(spool_starts_s(drive), command.tried ? kUnknownSpoolStarts_s : 0.0);
+  const double lag_s = std::max(spool_lag_s(drive), command.tried ? kUnknownSpoolLag_s : 0.0);
+  const int starting = cycles_under_way(starts_s + kSpoolFrameCycles * kCyclePeriod_s);
   // An implicit step: a little slower than the lag itself.
   const double led = duty_ratio + command.lead_ratio[i];
   // A spool faster than the one that is led gets to where the lead points.

@@ -8,12 +8,14 @@
 #include "firmware/core/fault_set.hpp"
 #include "firmware/core/time.hpp"
 #include "firmware/drives/drive_validation.hpp"
+#include "firmware/drives/tuning.hpp"
 
 namespace graben {
 
-/// The commands that something may still be answering to: those of the cycles of late.
+/// Recent commands that a spool or pump may still be answering.
 class CommandHistory {
  public:
+  /// Cycles whose commands are kept. [cycles; size: ring, 0.96 s of late start]
   static constexpr int kMostCycles = 96;
 
   struct Range {
@@ -36,11 +38,6 @@ class CommandHistory {
 
 /// Cycles that a command of `time_s` ago has been under way; as many as are kept at most.
 [[nodiscard]] int cycles_under_way(double time_s);
-
-/// Cycles in a row that a spool must be wrong: its frame comes every second one.
-inline constexpr int kSpoolWrongCycles = 4;
-/// The valve side has this many cycles to say what we say, unless its bus is slower.
-inline constexpr int kEchoCycles = 12;
 
 /// Where a sound spool can be, whichever it is of all that start late by up to their bound and
 /// follow with two lags of up to theirs: bounds that hold for lags that differ and change, too.

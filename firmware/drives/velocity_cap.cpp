@@ -13,6 +13,7 @@ struct Priority {
   int rank;  ///< The lowest is reported.
 };
 
+/// Rank of no limit. [-; derived: one after the last rank below]
 constexpr int kLastRank = 5;
 constexpr std::array<Priority, kLimitKindCount> kPriorities = {{{LimitKind::kNone, kLastRank},
                                                                 {LimitKind::kPumpFlow, 0},

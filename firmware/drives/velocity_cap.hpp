@@ -8,6 +8,7 @@
 #include "firmware/core/codes.hpp"
 #include "firmware/core/fault_set.hpp"
 #include "firmware/drives/drive_servo.hpp"
+#include "firmware/drives/tuning.hpp"
 
 namespace graben {
 
@@ -37,9 +38,6 @@ struct SpeedCap {
     }
   }
 };
-
-/// Closing slower than this, m/s or rad/s, is rounding: free even beyond a limit.
-inline constexpr double kStandsStill = 1e-9;
 
 /// A limit at `distance` (slack included) lets the machine close at most at min(gain_ps * distance,
 /// sqrt(2 * deceleration * distance)), not at all beyond; moving away is free.

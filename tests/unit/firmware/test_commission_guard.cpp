@@ -75,8 +75,8 @@ TEST(it_is_stopped_before_the_edge) {
       assert_true(cylinder.moved_m * side < 0.3);
     }
     const double left_m = 0.3 - cylinder.moved_m * side;
-    assert_true(left_m <= speed_mps * kStops_s + 1e-9);
-    assert_true(left_m > speed_mps * kStops_s - 0.01);
+    assert_true(left_m <= speed_mps * kGuardStops_s + 1e-9);
+    assert_true(left_m > speed_mps * kGuardStops_s - 0.01);
     for (int n = 0; n < 30; ++n) {
       assert_int_equal(cylinder.step(0.4 * side, 0.0), Fault::kNone);
       assert_near(cylinder.result.duty_ratio, 0.0, 0.0);
@@ -101,7 +101,7 @@ TEST(outside_only_back_is_free) {
 
 TEST(farther_outside_is_a_fault) {
   for (const int side : {1, -1}) {
-    Cylinder cylinder(0.5 + side * (0.3 + kOutside_m - 0.001));
+    Cylinder cylinder(0.5 + side * (0.3 + kGuardOutside_m - 0.001));
     assert_int_equal(cylinder.step(0.0, 0.0), Fault::kNone);
     assert_int_equal(cylinder.step(0.0, side * 0.2), Fault::kCommissionBound);
     // Where none is confirmed, it is none of the window's business.
@@ -228,6 +228,6 @@ TEST(an_end_is_not_met_fast) {
       assert_true(std::abs(cylinder.moved_m) < 0.5);
     }
     const double left_m = 0.5 - std::abs(cylinder.moved_m);
-    assert_near(left_m, (0.2 - kTouch_mps) * kStops_s, 0.005);
+    assert_near(left_m, (0.2 - kGuardTouch_mps) * kGuardStops_s, 0.005);
   }
 }

@@ -15,7 +15,7 @@ struct Chamber {
   double pressure_pa = 5e6;
   double stroke_m = 0.0;
   bool known = true;
-  double empty_pa = kEmpty_pa;
+  double empty_pa = kEmptyChamber_pa;
   std::array<PressurePair, kDriveCount> state{};
   int cycle = 0;
 
@@ -138,7 +138,7 @@ TEST(a_cylinder_at_rest_has_one_pressure, Chamber chamber) {
 
 /// A chamber without oil has one pressure for long, whatever its sensor's zero.
 TEST(an_empty_chamber_is_not_stuck) {
-  for (const double empty_pa : {kEmpty_pa, kEmptyUnknown_pa}) {
+  for (const double empty_pa : {kEmptyChamber_pa, kEmptyUnknown_pa}) {
     for (const double pressure_pa : {0.0, empty_pa, std::nextafter(empty_pa, 1e9)}) {
       in_each_chamber([&](Chamber chamber) {
         chamber.empty_pa = empty_pa;

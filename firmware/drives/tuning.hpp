@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Judgements of this room: each value with its unit, why it is so, and what else was tried.
+
+namespace graben {
+
+// Blocked drives (blocked.cpp)
+
+/// Share of the pump line's pressure from which the fed side strains. [-; chosen: where hardly any
+/// oil flows the fed side has most of the line's pressure; 0.7 tried before]
+inline constexpr double kBlockedStrains = 0.8;
+/// Share of the pump line's pressure under which a straining side no longer strains. [-; chosen:
+/// under kBlockedStrains, so that noise does not toggle it; 0.6 tried before]
+inline constexpr double kBlockedStrainsYet = 0.7;
+/// Share of the relief's pressure that a straining side has at least. [-; chosen: lifting and
+/// digging take less; not tried]
+inline constexpr double kBlockedReliefShare = 0.7;
+/// Share of the asked speed below which a free drive counts as standing. [-; chosen: not tried]
+inline constexpr double kBlockedStandsShare = 0.2;
+/// Share of the asked speed from which a blocked drive counts as moving again. [-; chosen: over
+/// kBlockedStandsShare, so that it does not toggle; not tried]
+inline constexpr double kBlockedMovesShare = 0.5;
+/// Asked speed up to which shares of it say nothing. [m/s; chosen: there lambda is as good as 0;
+/// not tried]
+inline constexpr double kBlockedLeastAsked_mps = 0.002;
+/// Speed below which a drive stands where hardly any is asked. [m/s; chosen: half of
+/// kBlockedLeastAsked_mps; not tried]
+inline constexpr double kBlockedStill_mps = 0.001;
+/// Low-pass of inlet pressure, asked and measured speed. [s; chosen: ten cycles take out noise; not
+/// tried]
+inline constexpr double kBlockedFilter_s = 0.1;
+/// Time that a drive strains and stands until it counts as blocked. [s; chosen: twice
+/// kBlockedFilter_s; 0.1 tried before]
+inline constexpr double kBlockedKnown_s = 0.2;
+/// Time in which the feedback of a blocked drive is faded out, and in again. [s; chosen: no step in
+/// what is asked; not tried]
+inline constexpr double kBlockedEase_s = 0.3;
+/// Share of the relief's pressure from which a blocked drive lets its pressure off. [-; chosen:
+/// near the relief the oil is a spring that throws the tool; not tried]
+inline constexpr double kBlockedHardShare = 0.85;
+/// Share of the relief's pressure down to which a blocked drive lets off. [-; chosen: the tool is
+/// held and thrown less; 0.6 tried before]
+inline constexpr double kBlockedLetOffShare = 0.75;
+/// Time for which a blocked drive pushes before it may let off. [s; chosen: one low-pass of its
+/// pressure; 0.5 tried before]
+inline constexpr double kBlockedPushes_s = 0.1;
+/// Longest time to let off, also where the pressure does not fall. [s; chosen: then the drive rests
+/// all the same; not tried]
+inline constexpr double kBlockedLetsOff_s = 1.0;
+/// Time for which a drive rests after it has let off, before it pushes again. [s; chosen: not
+/// tried]
+inline constexpr double kBlockedRests_s = 1.5;
+/// Speed backwards with which a blocked drive lets off. [m/s; chosen: slow, so that only pressure
+/// is let off; not tried]
+inline constexpr double kBlockedLetsOff_mps = 0.03;
+/// Time for which the machine stays slower once a drive that had let off is blocked no more. [s;
+/// chosen: its load may yet give way; not tried]
+inline constexpr double kBlockedWary_s = 6.0;
+/// Way beyond the place of blocking after which the drive is past it. [m; chosen: until then the
+/// load's giving way is to throw little; not tried]
+inline constexpr double kBlockedPast_m = 0.02;
+/// Way towards the load after which it has given way. [m; chosen: letting off alone does not end
+/// it; not tried]
+inline constexpr double kBlockedGaveWay_m = 0.005;
+
+// Commissioning guard (commission_guard.cpp): duties tried on valves that nobody knows
+
+/// Time from a duty to the last of what it does. [s; chosen: slowest machine, 0.25 s of dead time,
+/// two lags of 0.15 s and its frames; not tried]
+inline constexpr double kGuardUnderWay_s = 0.6;
+/// Least time to stop a drive in, before its window's end. [s; chosen: dead time, lags, and what
+/// its speed is measured late by; not tried]
+inline constexpr double kGuardStops_s = 0.5;
+/// Time until a drive that nothing drives has come to rest on its oil. [s; chosen: not tried]
+inline constexpr double kGuardComesToRest_s = 0.4;
+/// Way outside its window after which a drive is a fault. [m; chosen: farther than one that is
+/// stopped in time ever is; not tried]
+inline constexpr double kGuardOutside_m = 0.05;
+/// Speed up to which an end of the cylinder may be met that the window reaches. [m/s; chosen: not
+/// tried]
+inline constexpr double kGuardTouch_mps = 0.03;
+/// Time for which a drive may be pushed against its end. [s; chosen: not tried]
+inline constexpr double kGuardTouch_s = 1.0;
+/// Distance from an end within which a standing drive is at it. [m; chosen: whatever its sensor's
+/// zero is off; not tried]
+inline constexpr double kGuardEndZone_m = 0.015;
+/// Low-pass of the guard's speed. [s; chosen: three strokes of noise are little in it, and it is
+/// soon there; not tried]
+inline constexpr double kGuardSpeed_s = 0.08;
+/// Way against its duty, or without any, that is a fault. [m; chosen: with what it then still goes
+/// a drive stays within 50 mm; not tried]
+inline constexpr double kGuardWrong_m = 0.03;
+/// The same way for as long as the duties go on, however slowly it is gone. [m; chosen: over
+/// kGuardWrong_m and within 50 mm; not tried]
+inline constexpr double kGuardWhole_m = 0.045;
+/// Time constant with which wrong way is forgotten. [s; chosen: leakage and a sinking load, below
+/// kGuardWrong_m in this time, go on; not tried]
+inline constexpr double kGuardForget_s = 5.0;
+/// Change of a stroke up to which its drive stands. [m; chosen: noise, and what the oil gives; not
+/// tried]
+inline constexpr double kGuardStill_m = 0.0005;
+/// Duty beyond which every spool is open. [-; chosen: no edge is later; not tried]
+inline constexpr double kGuardSurelyOpen = 0.65;
+/// Duty beyond one that has moved the drive, at which it should move again. [-; chosen: leaves room
+/// for another load; not tried]
+inline constexpr double kGuardMoreThanMoved = 0.1;
+/// Speed from which a duty has moved its drive. [m/s; chosen: faster than it creeps; not tried]
+inline constexpr double kGuardMoves_mps = 0.01;
+/// Way from which a duty has moved its drive. [m; chosen: farther than a linkage rocks on its oil;
+/// not tried]
+inline constexpr double kGuardMoved_m = 0.015;
+/// Time beyond kGuardUnderWay_s for which a drive may stand that should move. [s; chosen: not
+/// tried]
+inline constexpr double kGuardStrained_s = 0.4;
+/// Low-pass of the chamber pressures. [s; chosen: ten cycles take out noise; not tried]
+inline constexpr double kGuardPressure_s = 0.1;
+/// Time for which a duty is held where only pressures answer it. [s; chosen: friction wants more
+/// than an edge; not tried]
+inline constexpr double kGuardHolds_s = 1.0;
+/// Rise of the duty after kGuardHolds_s. [1/s; chosen: slow, 30 s over the whole range; not tried]
+inline constexpr double kGuardRise_ps = 0.03;
+/// Duty up to which a drive may stand for ever. [-; chosen: no edge is earlier; not tried]
+inline constexpr double kGuardSurelyClosed = 0.1;
+/// Bound of the duty beyond kGuardSurelyClosed times time, while nothing moves. [s; chosen: 10 s at
+/// a duty of 0.3; not tried]
+inline constexpr double kGuardSpent_s = 2.0;
+/// Share of the relief's pressure from which the fed side strains. [-; chosen: there hardly any oil
+/// flows; not tried]
+inline constexpr double kGuardStrains = 0.8;
+/// Distance within which a window's end is the cylinder's end. [m; chosen: more than a frame
+/// resolves; not tried]
+inline constexpr double kGuardSame_m = 0.001;
+
+// Direction watch (direction_watch.cpp)
+
+/// Pressure by which a drive's own oil must push against its spool. [Pa; chosen: zeros of both
+/// sides' sensors together; not tried]
+inline constexpr double kDirectionZero_pa = 1.2e6;
+/// Share of the travel beyond the dead band's edge from which a spool is surely open. [-; chosen:
+/// the edge is known no better, and nearer to it the oil moves a drive by itself; without it tried]
+inline constexpr double kDirectionEdgeBand = 0.03;
+/// Way with its spool that may be set against way back, in bounds of the fault. [-; chosen: a drive
+/// that shakes on soft oil first goes with its spool; not tried]
+inline constexpr double kDirectionCredit = 4.0;
+
+// Gate (drive_gate.cpp)
+
+/// Largest rise of a tried duty, of its whole range. [1/s; chosen: full within 40 ms, a step to
+/// whoever looks at a drive's answer; not tried]
+inline constexpr double kTriedDutyRate_ps = 25.0;
+
+// Servo (drive_servo.cpp)
+
+/// Time constant with which a drive that its load holds forgets what it is behind. [s; chosen: not
+/// tried]
+inline constexpr double kServoForget_s = 0.3;
+
+// Strokes (drive_validation.cpp)
+
+/// Longest time for which a stroke is carried on from its frame. [s; chosen: a frame's 10 ms and
+/// what the bus adds; not tried]
+inline constexpr double kStrokeFramePeriod_s = 0.012;
+/// Low-pass of a stroke's speed. [s; chosen: carried on for a frame, its noise stays below the
+/// stroke's; not tried]
+inline constexpr double kStrokeSpeed_s = 0.03;
+
+// Tried duties (drive_watch.cpp)
+
+/// Time after the last tried duty for which the valve's model judges nothing. [s; chosen: more than
+/// kGuardUnderWay_s; not tried]
+inline constexpr double kTriedFor_s = 1.0;
+
+// Speed that the oil allows (flow_speed.cpp)
+
+/// Share of the travel by which a dead band's end and the spool's sensor may be off. [-; chosen:
+/// where a dead band ends at best, 3 %, and its sensor; 0.025 tried before]
+inline constexpr double kFlowTravelBand = 0.035;
+/// Share by which a metering edge's area may be off. [-; chosen: not tried]
+inline constexpr double kFlowAreaBand = 0.12;
+/// Standard deviations of a learnt opening that are left to it. [-; chosen: 3.0 tried before]
+inline constexpr double kFlowSpreads = 2.75;
+/// Share by which a regeneration's coefficients may be off. [-; chosen: not tried]
+inline constexpr double kFlowGalleryBand = 0.33;
+/// Pressure by which a sensor's zero may be off. [Pa; chosen: 1.0e6 tried before]
+inline constexpr double kFlowZero_pa = 1.2e6;
+/// Most pressure of the return line. [Pa; chosen: not tried]
+inline constexpr double kFlowReturn_pa = 0.2e6;
+/// Share by which the flow of a valve that meters at its inlet may be off. [-; chosen: not tried]
+inline constexpr double kFlowSupplyBand = 0.2;
+
+// Flow watch (flow_watch.cpp)
+
+/// Pressure below which the draining side may be empty, and neither carries nor pushes. [Pa;
+/// chosen: more than kFlowZero_pa and an empty side's pressure; not tried]
+inline constexpr double kFlowEmpty_pa = 1.5e6;
+/// Share of the pressure sensors' range from which a pressure is not used. [-; chosen: nearer to
+/// its end a port relief may be open; not tried]
+inline constexpr double kFlowNearRail = 0.8;
+/// Bulk modulus of the softest oil, with air in it. [Pa; chosen: not tried]
+inline constexpr double kFlowSoftest_pa = 0.6e9;
+/// Bulk modulus of the stiffest oil. [Pa; chosen: not tried]
+inline constexpr double kFlowStiffest_pa = 2.0e9;
+/// Oil in hoses and dead volume of a side, as travel. [m; chosen: not tried]
+inline constexpr double kFlowHose_m = 0.15;
+/// Newest pressure's share of the low-pass. [-; chosen: most of the noise is gone after 30 ms; not
+/// tried]
+inline constexpr double kFlowPressureShare = 0.3;
+/// Change of a stroke up to which it stands. [m; chosen: more than the sensor's resolution and
+/// noise; not tried]
+inline constexpr double kFlowStill_m = 0.0003;
+/// Time constant with which what a stroke is off is forgotten. [s; chosen: not tried]
+inline constexpr double kFlowForget_s = 10.0;
+/// Cycles with the same pressure after which its sensor is dead. [cycles; chosen: no living sensor
+/// shows the same so often, unless its side is empty; not tried]
+inline constexpr int kFlowSameCycles = 4;
+/// Change of a pressure in a cycle beyond which that cycle is not used. [Pa; chosen: faster only
+/// where something breaks loose, or the sensor does; not tried]
+inline constexpr double kFlowStep_pa = 4.0e6;
+
+// Learnt valves (learnt_valve.cpp). Openings are shares of the travel outside the dead band.
+
+/// Standard deviation of where a dead band ends, before anything is learnt. [-; chosen: a machine
+/// as found; not tried]
+inline constexpr double kLearntEdgeSpread = 0.03;
+/// Standard deviation of how a valve opens, before anything is learnt. [-; chosen: 0.12 tried
+/// before]
+inline constexpr double kLearntBendSpread = 0.09;
+/// Most that a dead band's end is moved. [-; chosen: over two kLearntEdgeSpread; not tried]
+inline constexpr double kLearntEdgeMost = 0.07;
+/// Most by which the way of opening is bent. [-; chosen: over three kLearntBendSpread; not tried]
+inline constexpr double kLearntBendMost = 0.3;
+/// Growth of the edge's variance. [1/s; chosen: nothing is known any more after 15 minutes; not
+/// tried]
+inline constexpr double kLearntEdgeDrift_ps = 1e-6;
+/// Growth of the bend's variance. [1/s; chosen: nothing is known any more after 14 minutes; not
+/// tried]
+inline constexpr double kLearntBendDrift_ps = 1e-5;
+/// Low-pass of the openings and speeds that are compared. [s; chosen: not tried]
+inline constexpr double kLearntFilter_s = 0.15;
+/// Standard deviation of a compared opening, in each cycle. [-; chosen: 25 cycles under one
+/// low-pass say as much as one would; not tried]
+inline constexpr double kLearntOpeningNoise = 0.1;
+/// Standard deviation of a compared speed, in each cycle. [m/s; chosen: as with
+/// kLearntOpeningNoise; not tried]
+inline constexpr double kLearntSpeedNoise_mps = 0.02;
+/// Asked speed from which a valve is learnt. [m/s; chosen: half of kLearntSpeedNoise_mps; not
+/// tried]
+inline constexpr double kLearntLeastSpeed_mps = 0.010;
+/// Asked opening from which a valve is learnt. [-; chosen: not tried]
+inline constexpr double kLearntLeastOpening = 0.02;
+/// Ratio of speed to asked speed, or the other way, beyond which it is not the valve's doing. [-;
+/// chosen: not tried]
+inline constexpr double kLearntMostRatio = 4.0;
+/// Distance of an opening from its low-pass beyond which it changes too fast to be compared. [-;
+/// chosen: not tried]
+inline constexpr double kLearntSteady = 0.08;
+/// Factor on the opening's exponent where the bypass closes over the opening too. [-; chosen: there
+/// a speed hangs on the opening more steeply; not tried]
+inline constexpr double kLearntSteeper = 4.0;
+
+// A motor's dead band (learnt_valve.cpp)
+
+/// Rate at which a motor's edge is moved. [1/s; chosen: 0.15 tried before]
+inline constexpr double kMotorEdgeRate_ps = 0.10;
+/// Time for which a motor has stood under an open spool before its edge is moved. [s; chosen: 0.1
+/// tried before, it learnt falsely: 28 mm on the paper's line instead of 20]
+inline constexpr double kMotorUnmoved_s = 0.4;
+/// Time from setting off in which a motor that is too fast shows its edge. [s; chosen: later its
+/// load may drive it; not tried]
+inline constexpr double kMotorSetsOff_s = 0.5;
+/// Asked speed, in speeds at which a motor still stands, from which it should move. [-; chosen:
+/// less is asked of what is to stand; without it tried, it learnt falsely]
+inline constexpr double kMotorAskedLeast = 5.0;
+
+// A cylinder that stands under an open spool, where the bypass meters (learnt_valve.cpp)
+
+/// Share of the opening for a slow speed at which a drive sets off. [-; chosen: not tried]
+inline constexpr double kStandingSetsOffShare = 0.96;
+/// Opening, asked and measured, from which a spool is open. [-; chosen: over kLearntEdgeSpread; not
+/// tried]
+inline constexpr double kStandingFeltOpening = 0.05;
+/// Asked opening from which nothing is learnt of a standing drive. [-; chosen: beyond it the edge
+/// says less than a tenth of what is missed; not tried]
+inline constexpr double kStandingMostClosing = 0.9;
+/// Asked speed from which a drive that stands should move. [m/s; chosen: over kStandingStill_mps;
+/// not tried]
+inline constexpr double kStandingLeastAsked_mps = 0.008;
+/// Speed below which a drive stands. [m/s; chosen: not tried]
+inline constexpr double kStandingStill_mps = 0.003;
+/// Time for which a drive has stood before its edge is moved. [s; chosen: four cycles; not tried]
+inline constexpr double kStandingStood_s = 0.04;
+/// Share of the edge's distance that is gone in a cycle. [-; chosen: not tried]
+inline constexpr double kStandingShare = 0.3;
+/// Fastest that the edge is moved. [1/s; chosen: the line needs time to show what the spool has
+/// reached, so little is overshot; 0.5 tried before]
+inline constexpr double kStandingRate_ps = 0.1;
+
+// Motion and pressure watch (motion_watch.cpp)
+
+/// Time constant of the anchor's creep after the stroke, and with which asked way is forgotten. [s;
+/// chosen: leakage is no uncommanded motion, and no stuck stroke; not tried]
+inline constexpr double kMotionForget_s = 10.0;
+/// Change of a stroke up to which it stands. [m; chosen: more than the sensor's resolution and
+/// noise; not tried]
+inline constexpr double kMotionStill_m = 0.0005;
+/// Time at its rail after which a pressure is wrong. [s; chosen: longer than any peak that a port
+/// relief lets stand; not tried]
+inline constexpr double kPressureRail_s = 0.3;
+/// Way of a drive, to and fro, after which a pressure that stays the same is stuck. [m; chosen: not
+/// tried]
+inline constexpr double kPressureStuck_m = 0.06;
+/// Step in which that way is counted. [m; chosen: more than a stroke sensor's noise; not tried]
+inline constexpr double kPressureStep_m = 0.002;
+/// Most that an empty chamber shows, which cavitates at one pressure for long. [Pa; chosen: not
+/// tried]
+inline constexpr double kEmptyChamber_pa = 0.2e6;
+/// Most that an empty chamber shows where nobody knows the sensors' zeros yet. [Pa; chosen:
+/// kEmptyChamber_pa, tried before, slowed commissioning]
+inline constexpr double kEmptyUnknown_pa = 1.5e6;
+
+// Spool lead (spool_lead.cpp)
+
+/// Time after which a led spool is to be where it is wanted. [s; chosen: the modelled spool's time
+/// constant, where it is no slower; not tried]
+inline constexpr double kLeadAhead_s = 0.02;
+/// Leading duty below which neutral is sent as neutral. [-; chosen: far within any dead band; not
+/// tried]
+inline constexpr double kLeadHome = 1e-3;
+
+// Spool parking (spool_parking.cpp)
+
+/// Time constant with which reversals are forgotten. [s; chosen: not tried]
+inline constexpr double kParkingForget_s = 3.0;
+/// Corrected speed up to which a spool parks, per reversal in a second. [m; chosen: a fixed 6 mm/s
+/// tried in the study before]
+inline constexpr double kParkingPerReversal_m = 0.04;
+/// Most of that speed, however often it reverses. [m/s; chosen: not tried]
+inline constexpr double kParkingMost_mps = 0.04;
+/// Speed of the path to the other side beyond which no spool stays parked. [m/s; chosen: there the
+/// path itself turns; 0.006 of its speed tried, better on slow paths alone]
+inline constexpr double kParkingPathReverses_mps = 0.003;
+/// Share of the dead band at which a parked spool waits. [-; chosen: its edge is not known exactly;
+/// not tried]
+inline constexpr double kParkingWithin = 0.7;
+
+// Spool watch (spool_watch.cpp)
+
+/// Cycles in a row after which a wrong spool is stuck. [cycles; chosen: two of its frames, which
+/// come every second cycle; not tried]
+inline constexpr int kSpoolWrongCycles = 4;
+/// Cycles that the valve side has to say what we say, unless its bus is slower. [cycles; chosen:
+/// not tried]
+inline constexpr int kEchoCycles = 12;
+/// Latest start of a spool whose valve is not known. [s; chosen: the slowest valve, 0.25 s of dead
+/// time, and room; not tried]
+inline constexpr double kUnknownSpoolStarts_s = 0.45;
+/// Longest of each of the two lags of such a spool. [s; chosen: the slowest valve, 0.15 s, and
+/// room; not tried]
+inline constexpr double kUnknownSpoolLag_s = 0.16;
+
+// Caps on the velocity (velocity_cap.cpp)
+
+/// Closing speed up to which a limit binds nothing, rad/s of a swing. [m/s; chosen: it is rounding,
+/// free even beyond a limit; not tried]
+inline constexpr double kStandsStill = 1e-9;
+
+}  // namespace graben
