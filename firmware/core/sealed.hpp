@@ -68,6 +68,7 @@ class Sealed {
   [[nodiscard]] Word word_of_all() const {
     const auto* bytes =
         static_cast<const unsigned char*>(__builtin_assume_aligned(&kept_, alignof(Word)));
+    // Bytes that whole rows take. [bytes; derived: the state's size, rounded down to rows]
     constexpr std::size_t kInRows = sizeof(T) / sizeof(Row) * sizeof(Row);
     Word even = kOfNothing;
     Word odd = 0;
