@@ -14,6 +14,8 @@ constexpr Range kFlowCoefficient{1e-9, 1e-3, "m3/(s sqrt(Pa))"};
 constexpr Range kPressure{1e6, 1e8, "Pa"};
 /// Of an orifice that is none.
 constexpr double kOpen = 1.0;
+/// Of a bypass that is closed, m3/(s sqrt(Pa)): 6e-9 m3/s at 35 MPa.
+constexpr double kClosedCentre = 1e-12;
 /// Less between full and least swash is a regulator that only jumps.
 constexpr double kLeastRise_pa = 2e5;
 

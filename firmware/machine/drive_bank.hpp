@@ -10,10 +10,12 @@
 #include "firmware/core/codes.hpp"
 #include "firmware/core/span.hpp"
 #include "firmware/machine/spool_answer.hpp"
+#include "firmware/machine/tuning.hpp"
 #include "firmware/machine/valve.hpp"
 
 namespace graben {
 
+/// Drives that a machine can have. [-; size: rows of a bank; an excavator has 4]
 inline constexpr int kMostDrives = 6;
 
 /// How a drive's commands may change.
@@ -93,13 +95,9 @@ struct DriveRow {
   return drive.supply.valve_flow_m3ps == 0.0;
 }
 
-/// What `settle_s` stands for: a start that is late by three tenths of it, and then two lags of
-/// seven twentieths each. A steady rise the spool so follows by just that much later.
-inline constexpr double kLateShare = 0.3;
-inline constexpr double kLagShare = 0.35;
-
-/// Times of a valve are known within 30 %.
-inline constexpr double kTimeBand = 1.3;
+/// Share of a spool's `settle_s` that each of its two lags has. [-; derived: kLateShare; a steady
+/// rise the spool so follows by just settle_s later]
+inline constexpr double kLagShare = (1.0 - kLateShare) / 2.0;
 
 /// Longest time from a duty to the spool's first movement, of both sides, s.
 [[nodiscard]] inline double longest_dead_time_s(const DriveRow& drive) {
@@ -134,18 +132,7 @@ struct DriveBank {
   [[nodiscard]] DriveRows rows() const { return {row.data(), count}; }
 };
 
-/// A cylinder's oil has rung down by then after its spool has closed, s.
-inline constexpr double kCylinderRest_s = 0.5;
-/// How far a measured stroke may lie outside its cylinder's range: a zero that nobody has found
-/// yet, and what an end gives way to a piston.
-inline constexpr double kStrokeMargin_m = 0.015;
-/// How far a stroke may change at once beyond what the cylinder can: noise, frames that were lost.
-inline constexpr double kJumpMargin_m = 0.020;
-/// A cylinder whose own oil feeds its other side, or whose load drives it, is faster than the pumps
-/// alone make it; twice is more than any of them does.
-inline constexpr double kFasterThanPumps = 2.0;
-
-/// Travel and sensed range of a cylinder of this stroke, with the margins above.
+/// Travel and sensed range of a cylinder of this stroke, with its margins (tuning.hpp).
 inline void set_cylinder_range(double stroke_m, DriveRow& row) {
   row.most_travel_m = stroke_m;
   row.watch.sensed_most_m = stroke_m;

@@ -6,10 +6,13 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware/machine/tuning.hpp"
+
 namespace graben {
 
 /// A_A: cap-side area of parallel cylinders, all of them together, m^2.
 constexpr double cap_area_m2(int count, double bore_m) {
+  // Area of a circle over its diameter squared. [-; derived: pi / 4]
   constexpr double kQuarterPi = 0.78539816339744830962;
   return count * kQuarterPi * bore_m * bore_m;
 }
@@ -18,10 +21,6 @@ constexpr double cap_area_m2(int count, double bore_m) {
 constexpr double rod_area_m2(int count, double bore_m, double rod_m) {
   return cap_area_m2(count, bore_m) - cap_area_m2(count, rod_m);
 }
-
-/// Largest rise of a duty on the wire, of its whole range per second, where the profile says
-/// nothing: half of it in a cycle.
-inline constexpr double kDutyRate_ps = 50.0;
 
 enum class RegenerationSide : int { kRetract = -1, kNone = 0, kExtend = 1 };
 
@@ -77,9 +76,6 @@ struct PumpRegulator {
 
   [[nodiscard]] bool sets_swash() const { return kind != PumpKind::kPositive; }
 };
-
-/// Flow coefficient of what is closed: 6e-9 m3/s at 35 MPa.
-inline constexpr double kClosedCentre = 1e-12;
 
 /// Swash-plate pump of (25): flow = displacement * speed * swash - leak_linear P - leak_quadratic
 /// P^2.
