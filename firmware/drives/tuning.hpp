@@ -23,14 +23,12 @@ inline constexpr double kBlockedMovesShare = 0.5;
 /// Asked speed up to which shares of it say nothing. [m/s; chosen: there lambda is as good as 0;
 /// not tried]
 inline constexpr double kBlockedLeastAsked_mps = 0.002;
-/// Speed below which a drive stands where hardly any is asked. [m/s; chosen: half of
-/// kBlockedLeastAsked_mps; not tried]
+/// Speed below which a drive stands where hardly any is asked. [m/s; chosen: not tried]
 inline constexpr double kBlockedStill_mps = 0.001;
 /// Low-pass of inlet pressure, asked and measured speed. [s; chosen: ten cycles take out noise; not
 /// tried]
 inline constexpr double kBlockedFilter_s = 0.1;
-/// Time that a drive strains and stands until it counts as blocked. [s; chosen: twice
-/// kBlockedFilter_s; 0.1 tried before]
+/// Time that a drive strains and stands until it counts as blocked. [s; chosen: 0.1 tried before]
 inline constexpr double kBlockedKnown_s = 0.2;
 /// Time in which the feedback of a blocked drive is faded out, and in again. [s; chosen: no step in
 /// what is asked; not tried]
@@ -41,8 +39,7 @@ inline constexpr double kBlockedHardShare = 0.85;
 /// Share of the relief's pressure down to which a blocked drive lets off. [-; chosen: the tool is
 /// held and thrown less; 0.6 tried before]
 inline constexpr double kBlockedLetOffShare = 0.75;
-/// Time for which a blocked drive pushes before it may let off. [s; chosen: one low-pass of its
-/// pressure; 0.5 tried before]
+/// Time for which a blocked drive pushes before it may let off. [s; chosen: 0.5 tried before]
 inline constexpr double kBlockedPushes_s = 0.1;
 /// Longest time to let off, also where the pressure does not fall. [s; chosen: then the drive rests
 /// all the same; not tried]
@@ -243,8 +240,7 @@ inline constexpr double kLearntOpeningNoise = 0.1;
 /// Standard deviation of a compared speed, in each cycle. [m/s; chosen: as with
 /// kLearntOpeningNoise; not tried]
 inline constexpr double kLearntSpeedNoise_mps = 0.02;
-/// Asked speed from which a valve is learnt. [m/s; chosen: half of kLearntSpeedNoise_mps; not
-/// tried]
+/// Asked speed from which a valve is learnt. [m/s; chosen: not tried]
 inline constexpr double kLearntLeastSpeed_mps = 0.010;
 /// Asked opening from which a valve is learnt. [-; chosen: not tried]
 inline constexpr double kLearntLeastOpening = 0.02;

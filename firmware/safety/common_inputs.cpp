@@ -4,12 +4,10 @@
 #include <algorithm>
 
 #include "firmware/safety/fault_table.hpp"
+#include "firmware/safety/tuning.hpp"
 
 namespace graben {
 namespace {
-
-/// Over its rated speed an engine runs by a few per cent, downhill by some more.
-constexpr double kMostOverspeed = 1.2;
 
 void read_driver(const OperatorInputs& driver, const Freshness& fresh, CommonValid& valid) {
   valid.enable = fresh.holds(driver.enable) && driver.enable.value;
@@ -57,7 +55,8 @@ void read_machine(const BusCapabilities& bus, const MachineInputs& inputs,
   }
   read_bus(inputs.link, valid);
   const Signal<double>& speed = inputs.engine_speed_radps;
-  const bool known = fresh.number(speed) && speed.value <= kMostOverspeed * engine.rated_radps;
+  const bool known =
+      fresh.number(speed) && speed.value <= kEngineMostOverspeed * engine.rated_radps;
   valid.idle_radps = engine.idle_radps;
   valid.engine_radps = known ? speed.value : engine.idle_radps;
   if (!known) {
@@ -92,8 +91,6 @@ void sort_faults(bool moving, std::initializer_list<Bridge> bridges, CommonValid
 }
 
 namespace {
-constexpr double kSlowAfter_s = 1.0;
-constexpr double kOverrideAfter_s = 0.2;
 
 /// A lower speed counts at once, a higher one after the last lower one has been long ago.
 void hold_override(double asked_ratio, double period_s, SlowingState& state) {

@@ -29,12 +29,6 @@ struct CommonValid {
   double idle_radps = 0.0;    ///< The profile's.
 };
 
-/// The machine names itself every second; it may miss one time.
-inline constexpr double kIdentityTimeout_s = 2.5;
-
-/// Share of idle below which an engine does not run by itself.
-inline constexpr double kRunningShare = 0.8;
-
 /// Bounds of an engine's speed.
 struct EngineRange {
   double rated_radps = 0.0;

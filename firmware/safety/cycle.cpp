@@ -4,26 +4,21 @@
 #include <algorithm>
 
 #include "firmware/safety/fault_table.hpp"
+#include "firmware/safety/tuning.hpp"
 
 namespace graben {
 namespace {
 
-/// A stalled cycle must not turn into one large step of a rate limit.
-constexpr double kLongestPeriod_s = 0.02;
-/// Without a cycle for this long, what the machine did meanwhile is not known.
-constexpr TimeUs kStalled_us = 50 * kMillisecondUs;
-/// A cycle that comes later than this after the last one is an overrun.
-constexpr TimeUs kLate_us = 15 * kMillisecondUs;
-constexpr TimeUs kCycle_us = 10 * kMillisecondUs;
-/// The bucket of late cycles: what it holds, and which part of the time it loses.
-constexpr TimeUs kBucket_us = 60 * kMillisecondUs;
-constexpr TimeUs kLeak = 10;
+/// Period of a cycle. [us; derived: kCyclePeriod_s]
+constexpr auto kCycle_us = static_cast<TimeUs>(kCyclePeriod_s * kMicrosecondsPerSecond);
+/// Time without a cycle beyond which a cycle is a stall. [us; derived: kMostCyclesLate]
+constexpr TimeUs kStalled_us = kMostCyclesLate * kCycle_us;
 
 /// The bucket a cycle on.
 TimeUs bucket_after(TimeUs late_us, TimeUs elapsed_us) {
-  const TimeUs left_us = late_us - std::max<TimeUs>(elapsed_us, 0) / kLeak;
+  const TimeUs left_us = late_us - std::max<TimeUs>(elapsed_us, 0) / kLateBucketLeak;
   const TimeUs filled_us =
-      elapsed_us > kLate_us ? std::min(elapsed_us, kStalled_us) - kCycle_us : 0;
+      elapsed_us > kCycleLate_us ? std::min(elapsed_us, kStalled_us) - kCycle_us : 0;
   return std::max<TimeUs>(left_us, 0) + filled_us;
 }
 
@@ -40,11 +35,11 @@ TimeWatchResult watch_time(const TimeState& last, TimeUs now_us) {
   TimeWatchResult result;
   result.elapsed_s = static_cast<double>(std::clamp<TimeUs>(elapsed_us, 0, kStalled_us)) * 1e-6;
   result.period_s = std::min(result.elapsed_s, kLongestPeriod_s);
-  result.state = {now_us, elapsed_us > kLate_us ? std::min(last.late_cycles + 1, 2) : 0,
+  result.state = {now_us, elapsed_us > kCycleLate_us ? std::min(last.late_cycles + 1, 2) : 0,
                   bucket_after(last.late_us, elapsed_us), true};
   if (elapsed_us > kStalled_us) {
     result.fault = Fault::kCycleStalled;
-  } else if (result.state.late_cycles >= 2 || result.state.late_us > kBucket_us) {
+  } else if (result.state.late_cycles >= 2 || result.state.late_us > kLateBucket_us) {
     result.fault = Fault::kCycleOverrun;
   }
   return result;

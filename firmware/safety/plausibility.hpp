@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "firmware/core/fault_set.hpp"
+#include "firmware/core/time.hpp"
 #include "firmware/signals/signal.hpp"
 
 namespace graben {
 
-inline constexpr double kMicrosecondsPerSecond = 1e6;
+/// Microseconds of a second, as a divisor of their number. [-; derived: kSecondUs]
+inline constexpr double kMicrosecondsPerSecond = double{kSecondUs};
 
 class Freshness {
  public:

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "firmware/safety/tuning.hpp"
+
 namespace graben {
 
 void tell_stall(const StallState& state, double most_s, CommonValid& inputs) {

@@ -6,11 +6,6 @@
 
 namespace graben {
 
-/// Less than this share of what is asked for is hardly getting on.
-inline constexpr double kStallShare = 0.05;
-/// So long until it is said.
-inline constexpr double kStallSaid_s = 2.0;
-
 /// State from cycle to cycle.
 struct StallState {
   /// Time in which it hardly got on, less the time in which it did: a machine that stalls for most

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "firmware/safety/tuning.hpp"
+
 namespace graben {
 namespace {
 

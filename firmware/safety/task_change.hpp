@@ -19,12 +19,6 @@ struct TaskChoice {
   [[nodiscard]] bool operator==(const TaskChoice& other) const;
 };
 
-/// So long the machine has to have been still, and the same task to have been asked for.
-inline constexpr double kStandstill_s = 0.2;
-/// A drive that has moved no further than this is still: more than what soil and a linkage that
-/// rings down make it give on its oil.
-inline constexpr double kStandstill_m = 0.01;
-
 /// State from cycle to cycle.
 struct TaskChangeState {
   TaskChoice followed;   ///< That the machine works at; kNone: at none yet.

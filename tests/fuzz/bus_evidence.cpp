@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "firmware/safety/common_inputs.hpp"
+#include "firmware/safety/tuning.hpp"
 #include "hal/link/e2e.hpp"
 #include "tests/fuzz/dozer_bus.hpp"
 #include "tests/fuzz/excavator_bus.hpp"

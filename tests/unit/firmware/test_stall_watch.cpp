@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "firmware/safety/tuning.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 constexpr double kPeriod_s = 0.015625;  // Binary: 128 of them are 2 s.

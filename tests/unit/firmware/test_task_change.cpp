@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "firmware/safety/tuning.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 constexpr double kPeriod_s = 0.015625;  // Binary, so that times add up to the bit.

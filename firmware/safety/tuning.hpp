@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Judgements of this room: each value with its unit, why it is so, and what else was tried.
+
+#include "firmware/core/time.hpp"
+
+namespace graben {
+
+// Inputs that every kind reads alike (common_inputs.cpp)
+
+/// Share of its rated speed up to which an engine's measured speed is believed. [-; chosen: it runs
+/// over it by a few per cent, downhill by some more; not tried]
+inline constexpr double kEngineMostOverspeed = 1.2;
+/// Share of idle below which an engine does not run by itself. [-; chosen: it is cranked, or
+/// stalls; not tried]
+inline constexpr double kRunningShare = 0.8;
+/// Time for which the machine's identity counts. [s; chosen: it names itself every second, and may
+/// miss one time; not tried]
+inline constexpr double kIdentityTimeout_s = 2.5;
+/// Time for which a machine stays slower once nothing is degraded any more. [s; chosen: a value
+/// that comes and goes must not make it jerk; 0.5 tried before]
+inline constexpr double kSlowAfter_s = 1.0;
+/// Time for which the operator's lower speed counts before a higher one does. [s; chosen: a speed
+/// that toggles must not make the machine jerk; not tried]
+inline constexpr double kOverrideAfter_s = 0.2;
+
+// Time of a cycle (cycle.cpp)
+
+/// Longest period that a cycle reckons with. [s; chosen: a late cycle must not turn into one large
+/// step of a rate limit; not tried]
+inline constexpr double kLongestPeriod_s = 0.02;
+/// Time after the last cycle from which one is late. [us; chosen: one and a half cycles; not tried]
+inline constexpr TimeUs kCycleLate_us = 15 * kMillisecondUs;
+/// Lateness that the bucket of late cycles holds before that is an overrun. [us; chosen: not
+/// tried]
+inline constexpr TimeUs kLateBucket_us = 60 * kMillisecondUs;
+/// Part of the time that the bucket loses: one in so many. [-; chosen: up to a tenth of the time
+/// may be late for ever; not tried]
+inline constexpr TimeUs kLateBucketLeak = 10;
+
+// A machine that hardly gets on (stall_watch.cpp)
+
+/// Share of what is asked below which a machine hardly gets on. [-; chosen: not tried]
+inline constexpr double kStallShare = 0.05;
+/// Time for which a machine hardly gets on until it is said. [s; chosen: not tried]
+inline constexpr double kStallSaid_s = 2.0;
+
+// A change of task in motion (task_change.cpp)
+
+/// Time for which the machine is still, and the same task asked for, before it begins. [s; chosen:
+/// not tried]
+inline constexpr double kStandstill_s = 0.2;
+/// Travel up to which a drive is still. [m; chosen: more than what soil, and a linkage that rings
+/// down, make it give on its oil; not tried]
+inline constexpr double kStandstill_m = 0.01;
+
+}  // namespace graben
