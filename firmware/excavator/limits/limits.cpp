@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "firmware/excavator/estimation/load/assumed_load.hpp"
+#include "firmware/excavator/estimation/oil/tuning.hpp"
 #include "firmware/excavator/limits/motion_cap.hpp"
 #include "firmware/excavator/limits/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
@@ -40,7 +41,7 @@ void hold_at_fences(const ExcavatorModel& machine, const InputState& inputs,
 void park_spools(const ExcavatorModel& machine, const ExcavatorValid& valid,
                  const EstimationState& estimates, double period_s, const LastCycle& last,
                  Motion& motion, LimitState& state) {
-  if (valid.task != Task::kDig || estimates.oil.weight < kOilParksFrom || motion.eases) {
+  if (valid.task != Task::kDig || estimates.oil.weight < kOilLeads || motion.eases) {
     state.parking = {};
     return;
   }

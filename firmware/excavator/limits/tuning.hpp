@@ -4,15 +4,12 @@
 
 namespace graben {
 
-// Corrections and the oil's law (limits.cpp)
+// Corrections (limits.cpp)
 
 /// Share of a move that its corrections must leave to be kept: with less the move goes on without
 /// them. [-; chosen: a small correction that needs more pressure than its pump has would never be
 /// made, and no line is off in a move; not tried]
 inline constexpr double kMoveHeldUp = 0.3;
-/// Weight of the oil's law from which on the spools of boom and arm are parked. [-; chosen: the law
-/// has more say than the servo; not tried]
-inline constexpr double kOilParksFrom = 0.5;
 
 // Fences (motion_cap.hpp)
 

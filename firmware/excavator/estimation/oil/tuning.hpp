@@ -49,7 +49,8 @@ inline constexpr double kOilHandOver_ps = 2.0;
 inline constexpr double kHeldLoad_s = 0.1;
 /// Time constant of the path's push. [s; chosen: the path's corners are steps; not tried]
 inline constexpr double kHeldPush_s = 0.03;
-/// Weight of the oil's law over the servo above which it decides. [-; chosen: not tried]
+/// Weight of the oil's law over the servo above which it decides: held loads, parked spools. [-;
+/// chosen: not tried]
 inline constexpr double kOilLeads = 0.5;
 
 }  // namespace graben
