@@ -17,8 +17,5 @@ inline constexpr double kDegreesPerRad = 180.0 / kPi;
 inline constexpr double kStandardGravity_mps2 = 9.80665;
 /// Positive infinity, for what has no bound. [-; standard: IEEE 754]
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Gravity that an excavator's loads are computed with. [m/s2; standard: free fall to two decimals;
-/// 0.03 % over kStandardGravity_mps2]
-inline constexpr double kRoundedGravity_mps2 = 9.81;
 
 }  // namespace graben

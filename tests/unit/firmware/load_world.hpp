@@ -46,10 +46,10 @@ class LoadWorld {
       const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
       const Eigen::Vector2d across(-along.y(), along.x());
       const LinkMass& link = machine().oil.link[i];
-      sum_j += 9.81 * mass_factor[i] * link.mass_kg *
+      sum_j += 9.80665 * mass_factor[i] * link.mass_kg *
                (pin_m + link.centre_m.x() * along + link.centre_m.y() * across).y();
       if (i == kBucket) {
-        sum_j += 9.81 * load_kg * (pin_m + length_m[i] * (0.55 * along + 0.2 * across)).y();
+        sum_j += 9.80665 * load_kg * (pin_m + length_m[i] * (0.55 * along + 0.2 * across)).y();
       }
       pin_m += length_m[i] * along;
     }

@@ -76,7 +76,7 @@ double holding_n(const Eigen::Vector3d& strokes_m, double carried_kg) {
   double force_n = 0.0;
   for (unsigned i = 0; i < 3; ++i) {
     const double mass_kg = machine().oil.link[i].mass_kg + (i == kBucket ? carried_kg : 0.0);
-    force_n += 9.81 * mass_kg * (above[i].y() - below[i].y()) / (2.0 * kStep_m);
+    force_n += 9.80665 * mass_kg * (above[i].y() - below[i].y()) / (2.0 * kStep_m);
   }
   return force_n;
 }

@@ -73,9 +73,9 @@ LinkMoments holding_moments(const OilProfile& oil, const LinkPlaces& at) {
     const double pin_m = at.pin_m[joint].x();
     for (unsigned link = joint; link < kAxisCount; ++link) {
       moments.of_link(joint, link) =
-          kRoundedGravity_mps2 * oil.link[link].mass_kg * (at.centre_m[link].x() - pin_m);
+          kStandardGravity_mps2 * oil.link[link].mass_kg * (at.centre_m[link].x() - pin_m);
     }
-    moments.load_nmpkg[joint] = kRoundedGravity_mps2 * (at.load_m.x() - pin_m);
+    moments.load_nmpkg[joint] = kStandardGravity_mps2 * (at.load_m.x() - pin_m);
   }
   return moments;
 }

@@ -51,7 +51,7 @@ void next_balance(const ExcavatorProfile& profile, const LoadSeen& seen, double 
                  0.0,
                  0.0,
                  filter.load_npkg.value[axis] + per_lever[axis] * moving.load_nmpkg[axis],
-                 per_lever[axis] * kRoundedGravity_mps2};
+                 per_lever[axis] * kStandardGravity_mps2};
     for (int link = axis; link < kAxisCount; ++link) {
       row.share[3U + static_cast<unsigned>(link)] =
           per_lever[axis] * (holding.of_link(axis, link) + moving.of_link(axis, link));

@@ -39,7 +39,7 @@ double payload_kg(const OilProfile& oil, const ExcavatorGeometry& geometry,
       oil.link[kArm].mass_kg * (arm_pin_m + cross(along, arm_rad, oil.link[kArm].centre_m)) +
       oil.link[kBucket].mass_kg * bucket_m;
   const double turn_radpm = now.jacobian(2, kBoom);
-  const double carried_kgm = boom_force_n / (kRoundedGravity_mps2 * turn_radpm) - moment_kgm;
+  const double carried_kgm = boom_force_n / (kStandardGravity_mps2 * turn_radpm) - moment_kgm;
   return bucket_m > kWeighedReach_m
              ? std::clamp(kWeighedHeavier * carried_kgm / bucket_m, 0.0, kWeighedMost_kg)
              : 0.0;
