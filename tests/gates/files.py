@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Gate: no hand-written source is too long, few are short, no file knows the machine it was written on.
 
-What is read together stands together: in no area may a fifth of the sources have 40 lines or fewer.
+What is read together stands together: in no area may a fifth of the sources have 40 lines or fewer. A room's tuning.hpp
+is as long as the room has judgements, and does not count.
 A unit test that no CMakeLists.txt names is never run. The example of a machine kind keeps to what its recipe
 promises."""
 
@@ -42,7 +43,7 @@ for name in names:
     if name.endswith(SOURCES):
         if length > MAX_LINES:
             problems.append(f"{name}: {length} lines; {MAX_LINES} is the most")
-        if name.endswith(COUNTED):
+        if name.endswith(COUNTED) and not name.endswith("/tuning.hpp"):
             lengths[name] = length
     for number, line in enumerate(lines, 1):
         if match := MACHINE.search(line):

@@ -61,7 +61,7 @@ TEST(a_little_more_saves_a_round) {
   LayerPlan whole = plan();
   whole.ground_from_m = 0.6;
   whole.ground_to_m = 0.6;
-  const double above_m3 = (0.6 - 0.085) * whole.way_m * whole.width_m;
+  const double above_m3 = (0.6 - kSparedAt_share * whole.bucket_m) * whole.way_m * whole.width_m;
   whole.full_m3 = 0.9 * above_m3 / 2.2;
   const double full_m3 = filling_m3(whole, undug(whole));
   const CutState state = undug(whole);

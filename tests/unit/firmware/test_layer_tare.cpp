@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "firmware/excavator/motion/dig/tuning.hpp"
 #include "tests/unit/firmware/layer_machine.hpp"
 
 using namespace graben::layer_test;

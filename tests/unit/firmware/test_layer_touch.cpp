@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/motion/dig/dig_touch.hpp"
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
 
 #include <algorithm>
 

@@ -4,6 +4,7 @@
 #include "firmware/excavator/motion/dig/cut_force.hpp"
 #include "firmware/excavator/motion/dig/dig_run.hpp"
 #include "firmware/excavator/motion/dig/layer_height.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 #include "tests/unit/firmware/layer_machine.hpp"
 
 using namespace graben::layer_test;

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "firmware/excavator/motion/dig/layer_plan.hpp"
 #include "firmware/excavator/motion/dig/step_round.hpp"
+#include "firmware/excavator/motion/dig/tuning.hpp"
 #include "tests/unit/firmware/step_task.hpp"
 
 using namespace graben::test;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/excavator/motion/dig/dig_phases.hpp"
-#include "firmware/excavator/motion/dig/dig_touch.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/dig/tuning.hpp"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/motion/dig/dig_touch.hpp"
 
 #include <algorithm>
 #include <cmath>

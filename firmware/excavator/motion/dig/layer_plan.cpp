@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/motion/dig/dig_touch.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/dig/tuning.hpp"
 
