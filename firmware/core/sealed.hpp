@@ -16,7 +16,7 @@ template <class T>
 class Sealed {
  public:
   template <class... Of>
-  explicit Sealed(const Of&... of) : kept_(of...), seal_(word_of_all()) {}
+  explicit Sealed(const Of&... of) : kept_(of...), seal_(seal_of(word_of_all())) {}
   // A copy need not take padding along. What is not intact does not become so.
   Sealed(const Sealed& other) : kept_(other.kept_), seal_(sealed_as(other)) {}
   Sealed& operator=(const Sealed& other) {
@@ -26,9 +26,9 @@ class Sealed {
   }
   ~Sealed() = default;
 
-  [[nodiscard]] bool intact() const { return seal_ == word_of_all(); }
+  [[nodiscard]] bool intact() const { return seal_ == seal_of(word_of_all()); }
   /// What was written since counts from now on.
-  void seal() { seal_ = word_of_all(); }
+  void seal() { seal_ = seal_of(word_of_all()); }
 
   /// Whether it is intact. If not, nobody knows what it has become: it is made anew of `of`, where
   /// it lies, as on the stack it would be too much. It has to be sealed after that.
@@ -58,7 +58,7 @@ class Sealed {
   };
   /// As wide as the machine reads at once.
   using Word = std::size_t;
-  static_assert(sizeof(T) % sizeof(Word) == 0 && alignof(T) >= alignof(Word));
+  static_assert(sizeof(T) % sizeof(Word) == 0 && alignof(T) % sizeof(Word) == 0);
   /// Neither zeros nor ones have it: wiped memory is no state.
   static constexpr Word kOfNothing = static_cast<Word>(0x5A96'3C69'A55A'C396ULL);
 
@@ -86,12 +86,19 @@ class Sealed {
     }
     return even ^ odd;
   }
-  [[nodiscard]] Word sealed_as(const Sealed& other) const {
-    return other.intact() ? word_of_all() : ~word_of_all();
+  /// As often as it has room, so that no byte behind it is unsealed padding.
+  using Seal = std::array<Word, alignof(T) / sizeof(Word)>;
+  static Seal seal_of(Word word) {
+    Seal seal;
+    seal.fill(word);
+    return seal;
+  }
+  [[nodiscard]] Seal sealed_as(const Sealed& other) const {
+    return seal_of(other.intact() ? word_of_all() : ~word_of_all());
   }
 
   Kept kept_;
-  Word seal_;
+  Seal seal_;
 };
 
 }  // namespace graben
