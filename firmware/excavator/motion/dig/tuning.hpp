@@ -314,7 +314,7 @@ inline constexpr double kEndNear_m = 0.02;
 /// Spring of teeth in a cut that is let be. [m; derived: kFinish_m]
 inline constexpr double kCutSpringFree_m = 0.018;
 /// Way that teeth are thrown by soil that breaks off before a steep bucket, of the way the oil
-/// gives under it. [-; measured: `check_scaled.py --area`: 60 t, 94 mm of spring, 175 mm thrown]
+/// gives under it. [-; measured: `check_scaled.py --trench`: 60 t, 94 mm of spring, 175 mm thrown]
 inline constexpr double kSteepThrows = 1.8;
 /// Force that a cut may take at a wall, of that elsewhere: it breaks off and lets the teeth drop.
 /// [-; chosen: not tried otherwise]
