@@ -58,7 +58,7 @@ class Sealed {
   };
   /// As wide as the machine reads at once.
   using Word = std::size_t;
-  static_assert(sizeof(T) % sizeof(Word) == 0 && alignof(T) % sizeof(Word) == 0);
+  static_assert(alignof(T) % sizeof(Word) == 0);  // So is its size.
   /// Neither zeros nor ones have it: wiped memory is no state.
   static constexpr Word kOfNothing = static_cast<Word>(0x5A96'3C69'A55A'C396ULL);
 
