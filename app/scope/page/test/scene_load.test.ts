@@ -158,7 +158,8 @@ test('a trench in loam: the bucket fills and empties, and what it cut lies besid
 test('the same task in the air: nothing in the bucket, nothing heaped up', () => {
   const {history, until_s} = worked(graben_log('autodig', '--task', 'trench'));
   for (let time = 0; time < until_s; time += 0.1) {
-    assert.equal(history.load!.at(time), 0);
+    // Less is not told from nothing: one reading of the force may stand over its doubt.
+    assert.ok(history.load!.at(time) < 0.02);
   }
   assert.equal(over(history.field), 0);
 });
