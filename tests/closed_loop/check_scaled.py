@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Machines from 2 to 60 t dig: the shipped 12 t machine scaled (scaled_machine.py), told of none of its errors, loads a
 truck by steps, through air and through sand. None may fault, and each has to arrive at what it was asked for. With
---trench each digs the shipped trench, scaled too, in loam: all of it, and no deeper than its design."""
+--trench each digs the shipped trench, scaled too, in loam: to its end, no deeper than its design; what stays is told."""
 
 import argparse
 import concurrent.futures
