@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/dozer/travel/body_roll.hpp"
+#include "firmware/dozer/travel/body_motion.hpp"
 #include "firmware/dozer/tuning.hpp"
 
 namespace graben {

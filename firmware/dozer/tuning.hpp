@@ -27,7 +27,7 @@ inline constexpr double kBladeSinkSlope = 0.1;
 /// with kBladeSinkSlope]
 inline constexpr double kBladeNoHurry = 0.5;
 
-// Controller (dozer_controller.cpp, dozer_controller.hpp)
+// Travel and blade of a cycle (estimation/situation.cpp, limits/limits.cpp, motion/motion.cpp)
 
 /// Time from a lower wanted speed to a slower machine: displacements, drive line, PI of the tracks.
 /// [s; chosen: 0.2 tried before; 0.04 more since the drive's lag behind a falling speed is known]

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/dozer/grade_profile.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 
 namespace graben {
 namespace {
@@ -47,6 +48,13 @@ void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommand
 bool tracks_at_rest(const DozerValid& valid) {
   return std::all_of(valid.track_speed_mps.begin(), valid.track_speed_mps.end(),
                      [](double speed) { return std::abs(speed) <= kTrackAtRest_mps; });
+}
+
+double believed_track_mps(const HstProfile& hst, const DozerValid& valid, unsigned track) {
+  return valid.degraded.has(Fault::kTrackSpeedDisagrees) || valid.track_outvoted[track]
+             ? track_speed_mps(hst, valid.engine_radps, valid.pump_ratio[track],
+                               valid.motor_ratio[track])
+             : valid.track_speed_mps[track];
 }
 
 BrakeState brake(const BrakeState& last, const ModeState& mode, const DozerValid& valid,

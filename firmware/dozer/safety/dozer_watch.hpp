@@ -36,6 +36,11 @@ void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommand
 /// Both tracks stand: none is faster than kTrackAtRest_mps.
 [[nodiscard]] bool tracks_at_rest(const DozerValid& valid);
 
+/// A track's speed as it may be fed back. Where one of them is not that of its displacements, none
+/// is believed, and one that is outvoted never: a wrong one would drive its track off.
+[[nodiscard]] double believed_track_mps(const HstProfile& hst, const DozerValid& valid,
+                                        unsigned track);
+
 /// State of the brake from cycle to cycle.
 struct BrakeState {
   bool wanted = true;

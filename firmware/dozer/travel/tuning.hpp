@@ -21,7 +21,7 @@ inline constexpr double kGroundCell_m = 0.05;
 /// more than control and sensors ever leave it; not tried]
 inline constexpr double kEdgeInAir_m = 0.08;
 
-// Body at rest and in motion (support.cpp, body_motion.cpp, body_motion.hpp, body_roll.cpp)
+// Body at rest and in motion (support.cpp, body_motion.cpp, body_motion.hpp)
 
 /// Bound of the model's pitch. [rad; derived: kMostPitch_rad, beyond which no pitch is believed]
 inline constexpr double kModelMostPitch_rad = kMostPitch_rad;

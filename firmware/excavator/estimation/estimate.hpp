@@ -6,8 +6,8 @@
 #include "firmware/excavator/estimation/load/load_observer.hpp"
 #include "firmware/excavator/estimation/oil/held_load.hpp"
 #include "firmware/excavator/estimation/oil/oil_gains.hpp"
-#include "firmware/excavator/excavator_model.hpp"
 #include "firmware/excavator/inputs/inputs.hpp"
+#include "firmware/excavator/stage.hpp"
 #include "firmware/excavator/swing.hpp"
 
 namespace graben {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "firmware/excavator/inputs/measured_joints.hpp"
-#include "firmware/excavator/inputs/tried_duties.hpp"
 
 namespace graben {
 namespace {

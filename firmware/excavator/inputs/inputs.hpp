@@ -5,10 +5,9 @@
 
 #include "firmware/drives/commission_guard.hpp"
 #include "firmware/estimation/foretold_angle.hpp"
-#include "firmware/excavator/excavator_model.hpp"
 #include "firmware/excavator/inputs/imu_joints.hpp"
-#include "firmware/excavator/last_cycle.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
+#include "firmware/excavator/stage.hpp"
 #include "firmware/safety/cycle.hpp"
 #include "firmware/safety/task_change.hpp"
 
@@ -32,6 +31,16 @@ struct InputState {
 [[nodiscard]] ExcavatorValid read_inputs(const ExcavatorModel& machine, int program_count,
                                          const ExcavatorInputs& inputs, const Cycle& cycle,
                                          TimeUs now_us, const LastCycle& last, InputState& state);
+
+/// Guards duties that are tried while a machine is commissioned, on valves of which nothing is
+/// known, and gives those that may be sent in `state.tried_ratio`; what holds them back is in
+/// `state.commission`. What a drive does wrong stops, where nothing else does.
+void guard_tried_duties(DriveRows drives, const Cycle& cycle, const LastCommands<kDriveCount>& last,
+                        ExcavatorValid& valid, InputState& state);
+
+/// Of the first cylinder that its window holds back.
+[[nodiscard]] Limit tried_limit(DriveRows drives,
+                                const std::array<CommissionState, kDriveCount>& commission);
 
 /// True where the task is to move something by the operator's levers.
 [[nodiscard]] inline bool is_by_lever(Task task) {

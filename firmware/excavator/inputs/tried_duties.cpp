@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/inputs/tried_duties.hpp"
-
 #include <algorithm>
+
+#include "firmware/excavator/inputs/inputs.hpp"
 
 namespace graben {
 

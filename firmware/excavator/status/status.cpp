@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "firmware/excavator/inputs/tried_duties.hpp"
 #include "firmware/excavator/status/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 

@@ -55,7 +55,7 @@ double slowest_into_the_trench_mps(double share) {
   double slowest_mps = 9.0;
   while (grading.position_m < 2.5) {
     auto& memory = DozerMemoryAccess::memory(grading.controller);
-    memory->flow.share = share;
+    memory->estimates.flow.share = share;
     memory.seal();
     grading.run(1);
     if (grading.position_m > 1.0) {

@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What a cycle hands to the next: what it commanded, and how that was followed. Written once, at
-/// its end.
+/// What the stages of an excavator's cycle share: the machine, and what the last cycle left to this
+/// one.
 
 #include "firmware/drives/drive_watch.hpp"
+#include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/kinematics/swing_kinematics.hpp"
 #include "firmware/safety/stall_watch.hpp"
 #include "firmware/safety/tube.hpp"
 
 namespace graben {
+
+/// Views of what ExcavatorSetup holds.
+struct ExcavatorModel {
+  const ExcavatorProfile& profile;
+  DriveRows drives = {nullptr, 0};
+  const SwingKinematics& kinematics;
+  const McvMachine& valve;
+};
 
 /// The valve's flow as the last cycle solved it.
 struct LastFlow {
@@ -19,6 +29,7 @@ struct LastFlow {
   Eigen::Vector2d yield_mpsn = Eigen::Vector2d::Zero();
 };
 
+/// What a cycle commanded, and how that was followed. Written once, at its end.
 struct LastCycle {
   LastCommands<kDriveCount> commands;
   std::array<double, kPumpCount> swash_ratio{};

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "firmware/dozer/outputs/outputs.hpp"
+
+namespace graben {
+namespace {
+
+/// Blade and tracks a cycle on, before the gate.
+DozerCommand commanded(const DozerProfile& profile, const DozerValid& valid,
+                       const BladeMotion& motion, const Travel& travel, double period_s,
+                       std::array<TrackState, kTrackCount>& state) {
+  DozerCommand command;
+  command.opening = motion.opening;
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    const TrackCommand track =
+        control_track(profile, state[i], travel.track_mps[i],
+                      believed_track_mps(profile.hst, valid, i), valid.engine_radps, period_s);
+    state[i] = track.state;
+    command.pump_ratio[i] = track.displacements.pump_ratio;
+    command.motor_ratio[i] = track.displacements.motor_ratio;
+  }
+  return command;
+}
+
+}  // namespace
+
+void put_out(const DozerModel& machine, const DozerValid& valid, const BladeMotion& motion,
+             const Travel& travel, double period_s, ModeDecision& decision, DozerOutputState& state,
+             DozerOutputs& outputs) {
+  const DozerProfile& profile = machine.profile;
+  const DozerCommand command = commanded(profile, valid, motion, travel, period_s, state.track);
+  const DozerGateResult gated =
+      gate_dozer(profile, machine.drives, decision.active(), command, period_s, state.gate);
+  take_refusal(gated.fault, decision);
+  if (!decision.active()) {
+    state.track = {};
+  }
+  state.brake = brake(state.brake, decision.mode, valid, period_s);
+  outputs.enable = gated.enable;
+  outputs.blade_duty_ratio = gated.duty_ratio[kBladeLift];
+  outputs.tilt_duty_ratio = gated.duty_ratio[kBladeTilt];
+  outputs.tilts = profile.tilt.present;
+  outputs.pump_ratio = gated.pump_ratio;
+  outputs.motor_ratio = gated.motor_ratio;
+  outputs.brake = state.brake.wanted;
+}
+
+}  // namespace graben

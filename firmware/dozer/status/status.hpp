@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Sixth stage of a dozer's cycle: what the operator and the next cycle are told of it.
+
+#include "firmware/dozer/outputs/outputs.hpp"
+
+namespace graben {
+
+/// What is told of a motion that is followed.
+void tell_motion(const DozerModel& machine, const PassState& pass, const BladeMotion& motion,
+                 const Travel& travel, const FaultSet& degraded, DozerStatus& status);
+
+/// What the next cycle has to know of this one.
+void remember(const DozerModel& machine, const DozerValid& valid, const DozerEstimates& estimates,
+              const BladeMotion& motion, const Travel& travel, const ModeDecision& decision,
+              const DozerOutputs& outputs, double period_s, DozerLastCycle& last);
+
+}  // namespace graben
