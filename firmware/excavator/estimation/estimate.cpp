@@ -118,7 +118,7 @@ void estimate_load(const ExcavatorModel& machine, const ExcavatorValid& valid,
   if (profile.has_swing()) {
     seen.swing_radps = inputs.accepted[kSwing].speed_mps / profile.swing.lever_m;
   }
-  next_load(profile, seen, motion.kind, motion.share, pose.tip, cycle.period_s,
+  next_load(profile, seen, motion.kind, motion.share, pose.tip, cycle.elapsed_s,
             cycle.last_mode == EcuMode::kActive, state.load_observer);
 }
 

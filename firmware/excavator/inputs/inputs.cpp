@@ -48,7 +48,7 @@ std::array<Signal<double>, kAxisCount> strokes_by_imus(const ExcavatorModel& mac
                                                        const Cycle& cycle, InputState& state) {
   const ImuStrokes by_imus = next_imu_strokes(
       machine.kinematics.planar(), machine.profile.imu, inputs,
-      is_still(machine.profile, inputs, cycle.last_mode), cycle.period_s, state.imus);
+      is_still(machine.profile, inputs, cycle.last_mode), cycle.elapsed_s, state.imus);
   state.joints = by_imus.joints;
   return by_imus.stroke_m;
 }

@@ -21,6 +21,7 @@ class LoadWorld {
   Eigen::Vector3d viscous_nspm = Eigen::Vector3d::Zero();
   std::array<double, 3> mass_factor = {1.0, 1.0, 1.0};
   bool active = true;
+  double elapsed_s = 0.01;  ///< Of each cycle.
   LoadObserver observer;
 
   [[nodiscard]] static const ExcavatorProfile& machine() { return excavator().profile; }
@@ -135,7 +136,7 @@ class LoadWorld {
       seen.lever_m[i] = 1.0 / now.jacobian(2, i);
     }
     seen.joints_rad = now.joints_rad;
-    next_load(machine(), seen, kind, share, now.tip, 0.01, active, observer);
+    next_load(machine(), seen, kind, share, now.tip, elapsed_s, active, observer);
   }
 
   void stand(StepKind kind, const TipPose& pose, double seconds) {

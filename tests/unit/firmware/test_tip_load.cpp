@@ -46,6 +46,19 @@ TEST(force_at_rest) {
   }
 }
 
+TEST(a_late_cycle_is_as_long_as_it_is, LoadWorld late) {
+  late.stand(StepKind::kDig, kLow, 0.5);
+  late.teeth_n = {20e3, 0.0};
+  LoadWorld in_time = late;
+  const Eigen::Vector3d strokes_m = late.strokes_at(kLow);
+  late.elapsed_s = 0.05;
+  late.cycle(StepKind::kDig, 0.0, strokes_m, Eigen::Vector3d::Zero());
+  repeat(5, [&] { in_time.cycle(StepKind::kDig, 0.0, strokes_m, Eigen::Vector3d::Zero()); });
+  const Eigen::Vector3d& seen_n = in_time.observer.filter.force_n.value;
+  assert_true(seen_n.norm() > 5e3);
+  assert_true((late.observer.filter.force_n.value - seen_n).norm() < 1e-6);
+}
+
 // What is off is learnt in the air; the load is then known through it all.
 TEST(payload_with_all_that_is_off, LoadWorld world) {
   world.offset_n = {15e3, -6e3, 4e3};

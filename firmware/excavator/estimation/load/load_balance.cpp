@@ -4,32 +4,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/core/time.hpp"
 #include "firmware/excavator/estimation/load/tuning.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
 
-void pass(const Eigen::Vector3d& seen, double period_s, bool restart, PairedFilter& filter) {
+/// A cycle that comes late is passed in parts, in which the low-pass is stable.
+void pass(const Eigen::Vector3d& seen, double elapsed_s, bool restart, PairedFilter& filter) {
   if (restart) {
     begin(seen, filter);
-  } else {
-    advance(seen, period_s, filter);
+    return;
+  }
+  const int parts = cycles_in(elapsed_s);
+  for (int n = 0; n < parts; ++n) {
+    advance(seen, elapsed_s / parts, filter);
   }
 }
 
 }  // namespace
 
-void next_balance(const ExcavatorProfile& profile, const LoadSeen& seen, double period_s,
+void next_balance(const ExcavatorProfile& profile, const LoadSeen& seen, double elapsed_s,
                   bool restart, BalanceFilter& filter, LoadBalance& balance) {
   const LinkPlaces at = link_places(profile.oil, profile.geometry, seen.joints_rad);
   const Eigen::Vector3d per_lever = seen.lever_m.cwiseInverse();
   const LinkMoments holding = holding_moments(profile.oil, at);
   const Eigen::Vector3d at_rest_n =
       seen.force_n - per_lever.cwiseProduct(holding.of_link.rowwise().sum());
-  pass(at_rest_n, period_s, restart, filter.force_n);
-  pass(per_lever.cwiseProduct(holding.load_nmpkg), period_s, restart, filter.load_npkg);
-  pass(seen.stroke_m, period_s, restart, filter.stroke_m);
+  pass(at_rest_n, elapsed_s, restart, filter.force_n);
+  pass(per_lever.cwiseProduct(holding.load_nmpkg), elapsed_s, restart, filter.load_npkg);
+  pass(seen.stroke_m, elapsed_s, restart, filter.stroke_m);
   balance.speed_mps = filter.stroke_m.rate_ps;
 
   // How the levers change takes no share: squares of the joints' rates are small.

@@ -41,7 +41,7 @@ struct LoadBalance {
 /// lever F + teeth f = moments(q, q', q'') + m load + lever (offset + friction), joint by joint,
 /// divided by the lever. Forces at rest go through a low-pass, and so do the strokes, whose second
 /// derivative then is of the same time as they are.
-void next_balance(const ExcavatorProfile& profile, const LoadSeen& seen, double period_s,
+void next_balance(const ExcavatorProfile& profile, const LoadSeen& seen, double elapsed_s,
                   bool restart, BalanceFilter& filter, LoadBalance& balance);
 
 }  // namespace graben

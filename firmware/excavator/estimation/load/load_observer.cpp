@@ -220,7 +220,7 @@ void tell(const ExcavatorProfile& profile, const LoadBalance& balance, LoadObser
 }  // namespace
 
 void next_load(const ExcavatorProfile& profile, const LoadSeen& seen, StepKind kind, double share,
-               const TipPose& tip, double period_s, bool active, LoadObserver& observer) {
+               const TipPose& tip, double elapsed_s, bool active, LoadObserver& observer) {
   if (!seen.known || !seen.force_n.allFinite()) {
     const LoadTerms terms = observer.terms;
     observer = {};
@@ -235,12 +235,12 @@ void next_load(const ExcavatorProfile& profile, const LoadSeen& seen, StepKind k
   }
   const LoadPhase before = observer.phase.phase;
   next_phase(active ? kind : StepKind::kNone, share, tip, -profile.geometry.boom_foot_m.y(),
-             period_s, observer.phase);
+             elapsed_s, observer.phase);
   if (observer.phase.phase != before) {
     enter(observer.phase.phase, profile.geometry, observer);
   }
   LoadBalance balance;
-  next_balance(profile, seen, period_s, !observer.begun, observer.filter, balance);
+  next_balance(profile, seen, elapsed_s, !observer.begun, observer.filter, balance);
   observer.begun = true;
   work(profile, balance, share, observer);
   add(balance, observer.filling);

@@ -54,6 +54,6 @@ struct LoadObserver {
 /// A cycle on. `kind` and `share` are those of the step that runs. Not `active`, nothing is learnt.
 /// What is not known makes the load unknown, and the filters begin anew; the terms stay.
 void next_load(const ExcavatorProfile& profile, const LoadSeen& seen, StepKind kind, double share,
-               const TipPose& tip, double period_s, bool active, LoadObserver& observer);
+               const TipPose& tip, double elapsed_s, bool active, LoadObserver& observer);
 
 }  // namespace graben

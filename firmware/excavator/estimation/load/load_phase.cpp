@@ -56,18 +56,18 @@ LoadPhase phase_of(StepKind kind, double share, const TipPose& tip, double heigh
 
 }  // namespace
 
-void next_phase(StepKind kind, double share, const TipPose& tip, double ground_m, double period_s,
+void next_phase(StepKind kind, double share, const TipPose& tip, double ground_m, double elapsed_s,
                 PhaseState& state) {
   const double height_m = tip.y_m - ground_m;
   const bool open = std::abs(wrap_near(tip.attitude_rad, 0.0)) > kOpeningDown_rad;
-  state.open_s = open ? std::min(state.open_s + period_s, 2.0 * kPoured_s) : 0.0;
+  state.open_s = open ? std::min(state.open_s + elapsed_s, 2.0 * kPoured_s) : 0.0;
   if (kind != state.kind) {
     state.kind = kind;
     state.lifted_from_m = tip.y_m;
     state.free_s = 0.0;
   }
   if (height_m > kGroundClear_m && tip.y_m > state.lifted_from_m + kLiftFree_m) {
-    state.free_s += period_s;
+    state.free_s += elapsed_s;
   }
   const LoadPhase before = state.phase;
   state.phase = phase_of(kind, share, tip, height_m, state);

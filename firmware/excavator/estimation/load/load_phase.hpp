@@ -34,7 +34,7 @@ struct PhaseState {
 /// half later. A bucket is empty in a move that no soil is meant for, once its opening has been
 /// down for a second and a half; the last part of such a move may touch the ground where it is low,
 /// and what is no higher than the heap's side may touch that.
-void next_phase(StepKind kind, double share, const TipPose& tip, double ground_m, double period_s,
+void next_phase(StepKind kind, double share, const TipPose& tip, double ground_m, double elapsed_s,
                 PhaseState& state);
 
 }  // namespace graben
