@@ -30,14 +30,14 @@ NUMBER = re.compile(r"^inline constexpr double (k\w+) =\s*([^;]+);", re.MULTILIN
 # Which campaigns a room has part in; the first row that fits.
 RUNS = {
     "dry": ["dig", "--profile", "excavator_22t", "--draws", "40"],
-    "loam": ["dig", "--profile", "excavator_12t", "--soil", "loam", "--draws", "20"],
+    "soil": ["dig", "--profile", "excavator_12t", "--soil", "--draws", "20"],
     "trench": ["autodig", "--profile", "excavator_12t", "--task", "trench", "--soil", "loam", "--draws", "3"],
     "grade": ["grade", "--profile", "dozer_9t", "--draws", "20"],
 }
 ROOMS = (("firmware/dozer", ("grade",)), ("firmware/excavator/motion/dig", ("trench",)),
-         ("firmware/excavator/estimation/load", ("loam", "trench")),
-         ("firmware/excavator/motion/program", ("trench",)), ("firmware/excavator", ("dry", "loam")),
-         ("firmware/mcv", ("dry", "loam")), ("firmware", ("dry", "loam", "grade")))
+         ("firmware/excavator/estimation/load", ("soil", "trench")),
+         ("firmware/excavator/motion/program", ("trench",)), ("firmware/excavator", ("dry", "soil")),
+         ("firmware/mcv", ("dry", "soil")), ("firmware", ("dry", "soil", "grade")))
 # Figures of a campaign that are looked at: what shows them in mm, %, s, and the quantile of the draws.
 FIGURES = {"max_error_true_m": (1e3, 0.95), "rmse_error_true_m": (1e3, 0.5), "over_cut_max_m": (1e3, 0.95),
            "built_within_ratio": (100.0, 0.5), "task_s": (1.0, 0.5), "loop_s": (1.0, 0.5), "time_s": (1.0, 0.5),
