@@ -201,14 +201,13 @@ void check_logs(const IdentifyLogCommand& options) {
   }
   const std::vector<identify::MachineLog> logs = read_logs(options, machine, hashes);
   const auto stretches = identify::moving_stretches(logs);
-  const auto spools = identify::spool_answers(machine.profile, logs);
+  const identify::DriveModel model(machine.profile);
+  const auto spools = identify::spool_answers(model, logs);
   if (!options.before.empty()) {
-    before = identify::score_of(old.profile, logs, stretches);
-    identify::judge_spools(old.profile, spools, before);
+    before = identify::score_of(identify::DriveModel(old.profile), logs, stretches, spools);
     columns.push_back({"before", &before});
   }
-  identify::PredictionScore now = identify::score_of(machine.profile, logs, stretches);
-  identify::judge_spools(machine.profile, spools, now);
+  const identify::PredictionScore now = identify::score_of(model, logs, stretches, spools);
   columns.push_back({"now", &now});
   fmt::print("{}", reports::prediction_table(columns));
   for (const std::string& sentence : identify::score_sentences(now)) {

@@ -105,7 +105,7 @@ IdentifyResult run_identification(const machines::SimulatedExcavator& hidden,
   identify::MachineEstimate found;
   try {
     found = identify::identify_machine(
-        hidden.profile, {frames.log(hidden.profile.pump_count)},
+        identify::DriveModel(hidden.profile), {frames.log(hidden.profile.pump_count)},
         [&](double share, const std::string& what) { progress(0.4 + 0.3 * share, what); });
   } catch (const std::runtime_error&) {
     result.end = IdentifyEnd::kNotIdentified;

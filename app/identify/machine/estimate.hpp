@@ -70,8 +70,10 @@ struct DriveEstimate {
   }
 };
 
+using DriveEstimates = std::array<DriveEstimate, kAxisCount>;
+
 struct MachineEstimate {
-  std::array<DriveEstimate, kAxisCount> drive;
+  DriveEstimates drive;
   std::array<Estimate, kPumpCount> pump_flow_factor;  ///< Of the profile's displacement.
   std::vector<std::string> missing;  ///< What the logs do not support, a sentence each.
 };

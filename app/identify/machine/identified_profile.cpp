@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/identify/machine/drive_model.hpp"
 #include "app/machines/tuned_control.hpp"
-#include "firmware/excavator/excavator_drives.hpp"
 
 namespace graben::identify {
 namespace {
@@ -53,21 +53,14 @@ void set_side(const DriveEstimate& drive, bool extends, SaidAnswer& answer) {
   }
 }
 
-void set_areas(int axis, const DriveEstimate& drive, ExcavatorProfile& profile) {
-  SpoolProfile& spool = profile.valve.spool[static_cast<unsigned>(axis)];
-  for (const bool extends : {true, false}) {
-    const SideEstimate& side = drive.side(extends);
-    if (!has_curve(side)) {
-      continue;
-    }
-    const SideAreas areas = areas_of(profile, axis, extends, side);
-    (extends ? spool.extend_in_m2 : spool.retract_in_m2) = areas.in_m2;
-    (extends ? spool.extend_out_m2 : spool.retract_out_m2) = areas.out_m2;
-  }
-}
+/// Full areas of one side's metering edges, m^2.
+struct SideAreas {
+  double in_m2 = 0.0;
+  double out_m2 = 0.0;
+};
 
-}  // namespace
-
+/// Those of a side whose velocity coefficient and draining area were found: the in-flow edge's is
+/// what (9), (11) leave for it.
 SideAreas areas_of(const ExcavatorProfile& profile, int axis, bool extends,
                    const SideEstimate& side) {
   const auto k = static_cast<unsigned>(axis);
@@ -85,6 +78,21 @@ SideAreas areas_of(const ExcavatorProfile& profile, int axis, bool extends,
                                    kLeastShare * resistance, (1.0 - kLeastShare) * resistance);
   return {std::sqrt(fed3 / (resistance - drains)), std::sqrt(drained3 / drains)};
 }
+
+void set_areas(int axis, const DriveEstimate& drive, ExcavatorProfile& profile) {
+  SpoolProfile& spool = profile.valve.spool[static_cast<unsigned>(axis)];
+  for (const bool extends : {true, false}) {
+    const SideEstimate& side = drive.side(extends);
+    if (!has_curve(side)) {
+      continue;
+    }
+    const SideAreas areas = areas_of(profile, axis, extends, side);
+    (extends ? spool.extend_in_m2 : spool.retract_in_m2) = areas.in_m2;
+    (extends ? spool.extend_out_m2 : spool.retract_out_m2) = areas.out_m2;
+  }
+}
+
+}  // namespace
 
 ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstimate& machine) {
   ExcavatorProfile result = profile;
@@ -115,7 +123,7 @@ ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstima
   const machines::TunedControl tuned = machines::tuned_control(
       machines::latest_answer_s(result), profile.control.servo_frequency_hz / machines::kBelowMode,
       profile.dig_speed_mps);
-  if (!are_quick(excavator_bank(result).rows())) {
+  if (!DriveModel(result).quick) {
     result.control.law = ControlLaw::kServo;
   }
   result.control.convergence_length_m = tuned.convergence_length_m;

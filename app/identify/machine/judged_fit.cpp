@@ -33,17 +33,17 @@ JudgedFit fit_and_judge(const ExcavatorProfile& profile, const std::vector<Machi
   const LogSplit split = split_logs(logs);
   fit.fitted_s = split.fitted_s;
   fit.judged_s = split.judged_s;
-  const MachineEstimate without = identify_machine(profile, split.fitted, part(progress, 0.0, 0.4));
-  fit.machine = identify_machine(profile, logs, part(progress, 0.4, 0.85));
+  const DriveModel old(profile);
+  const MachineEstimate without = identify_machine(old, split.fitted, part(progress, 0.0, 0.4));
+  fit.machine = identify_machine(old, logs, part(progress, 0.4, 0.85));
   fit.profile = identified(profile, fit.machine);
   progress(0.85, "judges by what was left out");
-  fit.before = score_of(profile, logs, split.judged);
-  fit.left_out = score_of(identified(profile, without), logs, split.judged);
-  fit.after = score_of(fit.profile, logs, split.judged);
-  const auto spools = spool_answers(profile, logs);
-  judge_spools(profile, spools, fit.before);
-  judge_spools(identified(profile, without), spools, fit.left_out);
-  judge_spools(fit.profile, spools, fit.after);
+  const auto judged = [&](const DriveModel& model) {
+    return score_of(model, logs, split.judged, fit.machine.drive);
+  };
+  fit.before = judged(old);
+  fit.left_out = judged(DriveModel(identified(profile, without)));
+  fit.after = judged(DriveModel(fit.profile));
   progress(1.0, "done");
   return fit;
 }

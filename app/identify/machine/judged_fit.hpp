@@ -8,6 +8,7 @@
 #include "app/identify/machine/log_split.hpp"
 #include "app/identify/machine/machine_fit.hpp"
 #include "app/identify/machine/prediction_score.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::identify {
 

@@ -16,13 +16,13 @@ constexpr std::array<const char*, kAxisCount> kNames = {"boom", "arm", "bucket"}
 /// A duty below which nearly nothing of the valve's range was tried.
 constexpr double kWholeRange = 0.9;
 
-SideEstimate side_of(const ExcavatorProfile& profile) {
+SideEstimate side_of(const DriveModel& model) {
   SideEstimate side;
-  side.edge.value = profile.valve.spool_to_duty.y_first();
-  side.exponent.value = profile.valve.opening_exponent;
+  side.edge.value = model.answer.edge();
+  side.exponent.value = model.metering.opening_exponent;
   side.coefficient_factor.value = 1.0;
   side.out_area_factor.value = 1.0;
-  side.dead_time_s.value = profile.control.dead_time_s;
+  side.dead_time_s.value = model.answer.dead_time_s;
   return side;
 }
 
@@ -58,7 +58,7 @@ void tell_side(const char* name, const char* direction, const SideEstimate& side
   keep(side.dead_time_s, "the dead time");
 }
 
-void tell_missing(const ExcavatorProfile& profile, MachineEstimate& machine) {
+void tell_missing(const DriveModel& model, MachineEstimate& machine) {
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
     const DriveEstimate& drive = machine.drive[axis];
     tell_side(kNames[axis], "extend", drive.extend, machine.missing);
@@ -73,7 +73,7 @@ void tell_missing(const ExcavatorProfile& profile, MachineEstimate& machine) {
     keep(drive.rod_zero_pa, "the zero of its rod pressure stays open");
     keep(drive.spool_time_constant_s, "no spool is measured: lags keep their old values");
   }
-  for (int j = 0; j < profile.pump_count; ++j) {
+  for (int j = 0; j < model.valve.pump_count; ++j) {
     if (!machine.pump_flow_factor[static_cast<std::size_t>(j)].known) {
       machine.missing.push_back(fmt::format("pump {}: its flow keeps its old value", j + 1));
     }
@@ -90,12 +90,12 @@ bool any_driven(const MachineEstimate& machine) {
 
 }  // namespace
 
-MachineEstimate estimate_of(const ExcavatorProfile& profile) {
+MachineEstimate estimate_of(const DriveModel& model) {
   MachineEstimate machine;
   for (DriveEstimate& drive : machine.drive) {
-    drive.extend = side_of(profile);
-    drive.retract = side_of(profile);
-    drive.spool_time_constant_s.value = profile.oil.spool_time_constant_s;
+    drive.extend = side_of(model);
+    drive.retract = side_of(model);
+    drive.spool_time_constant_s.value = model.answer.spool_time_constant_s;
   }
   for (Estimate& factor : machine.pump_flow_factor) {
     factor.value = 1.0;
@@ -103,24 +103,23 @@ MachineEstimate estimate_of(const ExcavatorProfile& profile) {
   return machine;
 }
 
-MachineEstimate identify_machine(const ExcavatorProfile& profile,
-                                 const std::vector<MachineLog>& logs,
+MachineEstimate identify_machine(const DriveModel& model, const std::vector<MachineLog>& logs,
                                  const MachineProgress& progress) {
-  MachineEstimate machine = estimate_of(profile);
+  MachineEstimate machine = estimate_of(model);
   for (int axis = 0; axis < kAxisCount; ++axis) {
     progress(0.15 * axis,
              fmt::format("{}: dead time and lags", kNames[static_cast<unsigned>(axis)]));
     find_spool_answer(logs, axis, machine.drive[static_cast<unsigned>(axis)]);
   }
   progress(0.5, "zeros of sensors");
-  const std::vector<SteadyPoint> points = steady_points(logs, profile);
-  find_zeros(logs, profile, points, machine);
+  const std::vector<SteadyPoint> points = steady_points(logs, model);
+  find_zeros(logs, model, points, machine);
   progress(0.55, "curves and pumps");
-  fit_valves(profile, points, {}, machine);
+  fit_valves(model, points, {}, machine);
   if (!any_driven(machine)) {
     throw std::runtime_error("no cylinder moves steadily anywhere in the logs");
   }
-  tell_missing(profile, machine);
+  tell_missing(model, machine);
   progress(1.0, "done");
   return machine;
 }

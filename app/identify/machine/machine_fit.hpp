@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "app/identify/machine/drive_model.hpp"
 #include "app/identify/machine/estimate.hpp"
 #include "app/identify/machine/machine_log.hpp"
-#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::identify {
 
@@ -16,11 +16,11 @@ namespace graben::identify {
 using MachineProgress = std::function<void(double share, const std::string& what)>;
 
 /// What the profile says, before any log: nothing is `known`.
-[[nodiscard]] MachineEstimate estimate_of(const ExcavatorProfile& profile);
+[[nodiscard]] MachineEstimate estimate_of(const DriveModel& model);
 
 /// Fits what the logs support; the rest keeps the profile's values and is named in `missing`.
 /// Throws std::runtime_error where nothing moves.
-[[nodiscard]] MachineEstimate identify_machine(const ExcavatorProfile& profile,
+[[nodiscard]] MachineEstimate identify_machine(const DriveModel& model,
                                                const std::vector<MachineLog>& logs,
                                                const MachineProgress& progress);
 

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/identify/machine/speed_model.hpp"
-#include "firmware/excavator/excavator_drives.hpp"
-
 namespace graben::identify {
 namespace {
 
@@ -35,8 +32,7 @@ double late(const std::vector<double>& duty, std::size_t at, double dead_time_s,
 /// One drive's way from its duty to its spool's opening.
 class SpoolModel {
  public:
-  SpoolModel(const ExcavatorProfile& profile, int axis)
-      : answer_{answer_of(profile, axis, true), answer_of(profile, axis, false)} {}
+  explicit SpoolModel(const SpoolAnswers& answer) : answer_(answer) {}
 
   /// Opening at this grid point, its sign the side; to be called for each in their order.
   double step(const std::vector<double>& duty, std::size_t at) {
@@ -59,16 +55,16 @@ class SpoolModel {
  private:
   [[nodiscard]] const SpoolAnswer& side(double way) const { return answer_.towards(way); }
 
-  SpoolAnswers answer_;
+  const SpoolAnswers& answer_;
   double first_ = 0.0;
   double spool_ = 0.0;
 };
 
-ValveMoment moment_of(const ExcavatorProfile& profile, const LogSegment& segment, std::size_t at) {
+ValveMoment moment_of(const DriveModel& model, const LogSegment& segment, std::size_t at) {
   ValveMoment moment;
   for (std::size_t k = 0; k < kAxisCount; ++k) {
-    moment.cap_pa[k] = segment.axis[k].cap_pa[at] - profile.sensor_zero.cap_pa[k];
-    moment.rod_pa[k] = segment.axis[k].rod_pa[at] - profile.sensor_zero.rod_pa[k];
+    moment.cap_pa[k] = segment.axis[k].cap_pa[at] - model.cap_zero_pa[k];
+    moment.rod_pa[k] = segment.axis[k].rod_pa[at] - model.rod_zero_pa[k];
   }
   for (std::size_t j = 0; j < kPumpCount; ++j) {
     moment.swash[j] = segment.swash[j][at];
@@ -109,16 +105,15 @@ void compare(const CylinderSeries& series, const std::vector<double>& way_m, dou
   }
 }
 
-PredictedSegment predict(const ExcavatorProfile& profile, const SpeedModel& model,
-                         const LogSegment& segment) {
+PredictedSegment predict(const DriveModel& model, const LogSegment& segment) {
   std::vector<SpoolModel> spools;
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    spools.emplace_back(profile, axis);
+  for (std::size_t k = 0; k < kAxisCount; ++k) {
+    spools.emplace_back(model.drive[k].answer);
   }
   std::array<double, kAxisCount> speed_mps{};
   std::array<std::vector<double>, kAxisCount> way_m;
   for (std::size_t at = 0; at < segment.size(); ++at) {
-    ValveMoment moment = moment_of(profile, segment, at);
+    ValveMoment moment = moment_of(model, segment, at);
     for (std::size_t k = 0; k < kAxisCount; ++k) {
       moment.opening[k] = spools[k].step(segment.axis[k].duty, at);
     }
@@ -132,18 +127,21 @@ PredictedSegment predict(const ExcavatorProfile& profile, const SpeedModel& mode
   }
   PredictedSegment predicted;
   for (std::size_t k = 0; k < kAxisCount; ++k) {
-    compare(segment.axis[k], way_m[k], profile.geometry.cylinder[k].stroke_m, predicted.axis[k]);
+    compare(segment.axis[k], way_m[k], model.drive[k].most_travel_m, predicted.axis[k]);
   }
   return predicted;
 }
 
 }  // namespace
 
-std::vector<PredictedSegment> predict_log(const ExcavatorProfile& profile, const MachineLog& log) {
-  const SpeedModel model(profile);
-  std::vector<PredictedSegment> all;
-  for (const LogSegment& segment : log.segments) {
-    all.push_back(predict(profile, model, segment));
+std::vector<std::vector<PredictedSegment>> predict_logs(const DriveModel& model,
+                                                        const std::vector<MachineLog>& logs) {
+  std::vector<std::vector<PredictedSegment>> all;
+  for (const MachineLog& log : logs) {
+    std::vector<PredictedSegment>& of = all.emplace_back();
+    for (const LogSegment& segment : log.segments) {
+      of.push_back(predict(model, segment));
+    }
   }
   return all;
 }

@@ -5,13 +5,13 @@
 /// is in it.
 ///
 /// duty -> dead time of its side -> the spool's two equal lags -> that side's table -> opening ->
-/// SpeedModel -> the rest of that side's lag (oil, hoses).
+/// DriveModel::speeds_mps() -> the rest of that side's lag (oil, hoses).
 
 #include <functional>
 #include <vector>
 
+#include "app/identify/machine/drive_model.hpp"
 #include "app/identify/machine/machine_log.hpp"
-#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::identify {
 
@@ -35,8 +35,8 @@ inline constexpr double kSpeedWindow_s = 0.10;
 /// Longer than any dead time and lag.
 inline constexpr double kSwings_s = 0.6;
 
-/// Of each segment of a log.
-[[nodiscard]] std::vector<PredictedSegment> predict_log(const ExcavatorProfile& profile,
-                                                        const MachineLog& log);
+/// Of each segment of each log.
+[[nodiscard]] std::vector<std::vector<PredictedSegment>> predict_logs(
+    const DriveModel& model, const std::vector<MachineLog>& logs);
 
 }  // namespace graben::identify

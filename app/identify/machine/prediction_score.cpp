@@ -10,7 +10,6 @@
 #include "app/identify/machine/machine_fit.hpp"
 #include "app/identify/machine/median.hpp"
 #include "app/identify/machine/spool_answer.hpp"
-#include "firmware/excavator/excavator_drives.hpp"
 
 namespace graben::identify {
 namespace {
@@ -218,39 +217,34 @@ PredictionScore score(const std::vector<std::vector<PredictedSegment>>& predicte
   return total;
 }
 
-PredictionScore score_of(const ExcavatorProfile& profile, const std::vector<MachineLog>& logs,
-                         const std::vector<LogStretch>& stretches) {
-  std::vector<std::vector<PredictedSegment>> predicted;
-  for (const MachineLog& log : logs) {
-    predicted.push_back(predict_log(profile, log));
-  }
-  return score(predicted, stretches);
-}
-
-std::array<DriveEstimate, kAxisCount> spool_answers(const ExcavatorProfile& profile,
-                                                    const std::vector<MachineLog>& logs) {
-  std::array<DriveEstimate, kAxisCount> found = estimate_of(profile).drive;
+DriveEstimates spool_answers(const DriveModel& model, const std::vector<MachineLog>& logs) {
+  DriveEstimates found = estimate_of(model).drive;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     find_spool_answer(logs, axis, found[static_cast<std::size_t>(axis)]);
   }
   return found;
 }
 
-void judge_spools(const ExcavatorProfile& profile,
-                  const std::array<DriveEstimate, kAxisCount>& found, PredictionScore& score) {
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    const auto k = static_cast<std::size_t>(axis);
+void judge_spools(const DriveModel& model, const DriveEstimates& found, PredictionScore& score) {
+  for (std::size_t k = 0; k < kAxisCount; ++k) {
     for (const bool extends : {true, false}) {
       const Estimate& dead_time_s = found[k].side(extends).dead_time_s;
       SideScore& side = score.axis[k].side(extends);
       if (dead_time_s.known && side.moving_s > 0.0) {
-        const SpoolAnswer said = answer_of(profile, axis, extends);
+        const SpoolAnswer& said = model.drive[k].answer.side(extends);
         side.has_delay = true;
         side.late_s = dead_time_s.value + found[k].lag_s() - said.dead_time_s -
                       2.0 * said.spool_time_constant_s;
       }
     }
   }
+}
+
+PredictionScore score_of(const DriveModel& model, const std::vector<MachineLog>& logs,
+                         const std::vector<LogStretch>& stretches, const DriveEstimates& spools) {
+  PredictionScore of = score(predict_logs(model, logs), stretches);
+  judge_spools(model, spools, of);
+  return of;
 }
 
 std::vector<std::string> score_sentences(const PredictionScore& score) {

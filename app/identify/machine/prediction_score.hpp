@@ -45,19 +45,18 @@ struct PredictionScore {
 [[nodiscard]] PredictionScore score(const std::vector<std::vector<PredictedSegment>>& predicted,
                                     const std::vector<LogStretch>& stretches);
 
-/// The same of a profile.
-[[nodiscard]] PredictionScore score_of(const ExcavatorProfile& profile,
-                                       const std::vector<MachineLog>& logs,
-                                       const std::vector<LogStretch>& stretches);
-
 /// Times of the spools in these logs, where they are measured; else nothing is known.
-[[nodiscard]] std::array<DriveEstimate, kAxisCount> spool_answers(
-    const ExcavatorProfile& profile, const std::vector<MachineLog>& logs);
+[[nodiscard]] DriveEstimates spool_answers(const DriveModel& model,
+                                           const std::vector<MachineLog>& logs);
 
 /// How late a side answers, by its spool where that is known: a cylinder that swings on its oil has
 /// a delay that is no valve's.
-void judge_spools(const ExcavatorProfile& profile,
-                  const std::array<DriveEstimate, kAxisCount>& found, PredictionScore& score);
+void judge_spools(const DriveModel& model, const DriveEstimates& found, PredictionScore& score);
+
+/// Of a model's prediction of the logs, and of its spools by what was found of them.
+[[nodiscard]] PredictionScore score_of(const DriveModel& model, const std::vector<MachineLog>& logs,
+                                       const std::vector<LogStretch>& stretches,
+                                       const DriveEstimates& spools);
 
 /// From here on a sentence is worth reading.
 inline constexpr double kRatioWorth = 0.03;

@@ -103,7 +103,7 @@ SteadyPoint point_of(const LogSegment& segment, const std::array<double, kAxisCo
 }  // namespace
 
 std::vector<SteadyPoint> steady_points(const std::vector<MachineLog>& logs,
-                                       const ExcavatorProfile& profile) {
+                                       const DriveModel& model) {
   std::vector<SteadyPoint> points;
   std::array<double, kAxisCount> noise_pa{};
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
@@ -114,7 +114,7 @@ std::vector<SteadyPoint> steady_points(const std::vector<MachineLog>& logs,
     for (const LogSegment& segment : log.segments) {
       for (std::size_t at = kSettles; at + kHalf < segment.size(); at += kEvery) {
         for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
-          if (is_steady(segment, axis, at, profile.geometry.cylinder[axis].stroke_m)) {
+          if (is_steady(segment, axis, at, model.drive[axis].most_travel_m)) {
             points.push_back(point_of(segment, noise_pa, axis, at));
             points.back().block = block + at / kBlock;
           }

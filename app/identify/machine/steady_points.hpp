@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "app/identify/machine/drive_model.hpp"
 #include "app/identify/machine/machine_log.hpp"
-#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::identify {
 
@@ -30,6 +30,6 @@ struct SteadyPoint {
 
 /// All of them, of every axis. Not near the ends of a stroke, where cushions and stops are.
 [[nodiscard]] std::vector<SteadyPoint> steady_points(const std::vector<MachineLog>& logs,
-                                                     const ExcavatorProfile& profile);
+                                                     const DriveModel& model);
 
 }  // namespace graben::identify

@@ -145,11 +145,11 @@ Estimate zero_of(const std::vector<Touch>& found, double noise_pa, const Estimat
 
 }  // namespace
 
-void find_zeros(const std::vector<MachineLog>& logs, const ExcavatorProfile& profile,
+void find_zeros(const std::vector<MachineLog>& logs, const DriveModel& model,
                 const std::vector<SteadyPoint>& points, MachineEstimate& machine) {
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
     DriveEstimate& drive = machine.drive[axis];
-    const double most_m = profile.geometry.cylinder[axis].stroke_m;
+    const double most_m = model.drive[axis].most_travel_m;
     const std::vector<Touch> out =
         touches(logs, axis, true, most_m, least_open(points, axis, true));
     const std::vector<Touch> in = touches(logs, axis, false, 0.0, least_open(points, axis, false));

@@ -9,7 +9,6 @@
 #include "app/identify/machine/estimate.hpp"
 #include "app/identify/machine/machine_log.hpp"
 #include "app/identify/machine/steady_points.hpp"
-#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::identify {
 
@@ -17,7 +16,7 @@ namespace graben::identify {
 /// by the other where only that was touched; the pressures' by the draining side. A sensor that
 /// reads nothing there is at or below zero, by no one knows how much. `points`: a valve that is not
 /// open as far as it was where its drive moved, presses nothing.
-void find_zeros(const std::vector<MachineLog>& logs, const ExcavatorProfile& profile,
+void find_zeros(const std::vector<MachineLog>& logs, const DriveModel& model,
                 const std::vector<SteadyPoint>& points, MachineEstimate& machine);
 
 }  // namespace graben::identify

@@ -11,7 +11,6 @@
 #include <map>
 
 #include "app/identify/machine/valve_costs.hpp"
-#include "firmware/excavator/excavator_drives.hpp"
 
 namespace graben::identify {
 namespace {
@@ -96,7 +95,7 @@ class Fit {
   }
 
   /// What was found, into `machine`.
-  void tell(const ExcavatorProfile& profile, MachineEstimate& machine) const;
+  void tell(const DriveModel& model, MachineEstimate& machine) const;
 
  private:
   static ceres::NumericDiffOptions steps() {
@@ -131,7 +130,7 @@ class Fit {
     const double left = deviation(at);
     return {value, kModel * left, left < kLearnt * before};
   }
-  void tell_side(const ExcavatorProfile& profile, std::size_t side, SideEstimate& to) const;
+  void tell_side(const DriveModel& model, std::size_t side, SideEstimate& to) const;
 
   const std::vector<PreparedPoint>& points_;
   ValvePriors priors_;
@@ -280,7 +279,7 @@ void Fit::find_covariance() {
   covariance_ = inverse + inverse * gradients * inverse;
 }
 
-void Fit::tell_side(const ExcavatorProfile& profile, std::size_t side, SideEstimate& to) const {
+void Fit::tell_side(const DriveModel& model, std::size_t side, SideEstimate& to) const {
   const auto& block = blocks_.side[side];
   const std::size_t first = side * kSideSize;
   to.edge = found(block[kEdge], first + kEdge, priors_.edge);
@@ -301,7 +300,7 @@ void Fit::tell_side(const ExcavatorProfile& profile, std::size_t side, SideEstim
   to.duty.clear();
   to.duty_deviation.clear();
   for (const double opening : kTableOpenings) {
-    const double area = std::pow(opening, profile.valve.opening_exponent);
+    const double area = std::pow(opening, model.metering.opening_exponent);
     to.duty.push_back(to.curve().travel_at(area));
     Eigen::Vector3d slope;
     for (std::size_t at = 0; at <= kExponent; ++at) {
@@ -317,7 +316,7 @@ void Fit::tell_side(const ExcavatorProfile& profile, std::size_t side, SideEstim
   }
 }
 
-void Fit::tell(const ExcavatorProfile& profile, MachineEstimate& machine) const {
+void Fit::tell(const DriveModel& model, MachineEstimate& machine) const {
   std::array<double, kSides> least{};
   std::array<double, kSides> most{};
   for (const PreparedPoint& of : points_) {
@@ -337,7 +336,7 @@ void Fit::tell(const ExcavatorProfile& profile, MachineEstimate& machine) const 
       drive.side(extends).driven_least = least[side];
       drive.side(extends).driven_most = most[side];
       if (most[side] > 0.0) {
-        tell_side(profile, side, drive.side(extends));
+        tell_side(model, side, drive.side(extends));
       }
     }
     const std::size_t zero = kZerosAt + axis * kZeroSize;
@@ -357,18 +356,16 @@ void Fit::tell(const ExcavatorProfile& profile, MachineEstimate& machine) const 
 
 }  // namespace
 
-void fit_valves(const ExcavatorProfile& profile, const std::vector<SteadyPoint>& points,
+void fit_valves(const DriveModel& model, const std::vector<SteadyPoint>& points,
                 const ValvePriors& priors, MachineEstimate& machine) {
-  const McvMachine valve = mcv_machine(profile);
   std::vector<PreparedPoint> prepared;
   prepared.reserve(points.size());
   for (const SteadyPoint& point : points) {
-    prepared.emplace_back(profile, valve, point,
-                          machine.drive[static_cast<std::size_t>(point.axis)]);
+    prepared.emplace_back(model, point, machine.drive[static_cast<std::size_t>(point.axis)]);
   }
   Fit fit(prepared, priors, machine);
   fit.solve();
-  fit.tell(profile, machine);
+  fit.tell(model, machine);
 }
 
 }  // namespace graben::identify

@@ -32,7 +32,7 @@ struct ValvePriors {
 
 /// Fits what the points support into `machine`, which comes with the profile's values and with
 /// zeros of sensors that were found otherwise (`known`, their deviation is then the prior's).
-void fit_valves(const ExcavatorProfile& profile, const std::vector<SteadyPoint>& points,
+void fit_valves(const DriveModel& model, const std::vector<SteadyPoint>& points,
                 const ValvePriors& priors, MachineEstimate& machine);
 
 }  // namespace graben::identify

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/excavator/excavator_drives.hpp"
-#include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/evaluation.hpp"
 
 namespace graben::identify {
@@ -24,7 +22,7 @@ constexpr double kEdgeDecides = 0.6;
 constexpr double kSays_pa = 1.0e6;
 
 /// The speeds as the valve's model takes them: along their spools, or none.
-McvInput input_at(const ExcavatorProfile& profile, const SteadyPoint& point, double own_mps) {
+McvInput input_at(const DriveModel& model, const SteadyPoint& point, double own_mps) {
   McvInput input;
   for (std::size_t k = 0; k < kAxisCount; ++k) {
     const bool own = static_cast<int>(k) == point.axis;
@@ -34,24 +32,21 @@ McvInput input_at(const ExcavatorProfile& profile, const SteadyPoint& point, dou
     input.cap_pressure_pa[k] = point.cap_pa[k];
     input.rod_pressure_pa[k] = point.rod_pa[k];
   }
-  for (int j = 0; j < profile.pump_count; ++j) {
-    const auto k = static_cast<std::size_t>(j);
-    input.pump_flow_m3ps[k] = pump_flow_m3ps(profile.pump[k], point.engine_radps, point.swash[k]);
-  }
+  input.pump_flow_m3ps = model.flow_m3ps(point.engine_radps, point.swash);
   return input;
 }
 
 }  // namespace
 
-PreparedPoint::PreparedPoint(const ExcavatorProfile& profile, const McvMachine& machine,
-                             const SteadyPoint& point, const DriveEstimate& drive)
+PreparedPoint::PreparedPoint(const DriveModel& model, const SteadyPoint& point,
+                             const DriveEstimate& drive)
     : point_(point) {
   const auto axis = static_cast<std::size_t>(point.axis);
   // At 1 m/s all that grows with its speed is its coefficient.
   const McvCircuit circuit =
-      make_circuit(machine, input_at(profile, point, extends() ? 1.0 : -1.0));
+      make_circuit(model.valve, input_at(model, point, extends() ? 1.0 : -1.0));
   axis_ = circuit.axis[axis];
-  pump_ = machine.actuator[axis].pump;
+  pump_ = model.valve.actuator[axis].pump;
   others_ = circuit.line[static_cast<std::size_t>(pump_)];
   others_.in_flow_m3ps -= axis_.q_in_m3ps - (axis_.regeneration ? axis_.q_out_m3ps : 0.0);
   for (int n = 0; n < others_.regeneration_count; ++n) {
@@ -62,11 +57,11 @@ PreparedPoint::PreparedPoint(const ExcavatorProfile& profile, const McvMachine& 
     }
   }
   full_mps_ = axis_.spool->y_last();
-  const SpoolProfile& spool = profile.valve.spool[axis];
-  out_m3ps_ = profile.valve.discharge * std::sqrt(2.0 / profile.valve.density_kgpm3) *
+  const SpoolProfile& spool = model.drive[axis].spool;
+  out_m3ps_ = model.metering.discharge * std::sqrt(2.0 / model.metering.density_kgpm3) *
               (extends() ? spool.extend_out_m2 : spool.retract_out_m2);
-  cap_m2_ = machine.actuator[axis].area_cap_m2;
-  rod_m2_ = machine.actuator[axis].area_rod_m2;
+  cap_m2_ = model.valve.actuator[axis].area_cap_m2;
+  rod_m2_ = model.valve.actuator[axis].area_rod_m2;
   const double cap_pa = point.cap_pa[axis] - drive.cap_zero_pa.value;
   const double rod_pa = point.rod_pa[axis] - drive.rod_zero_pa.value;
   const double drained_pa = extends() ? rod_pa : cap_pa;
@@ -143,14 +138,12 @@ double PreparedPoint::coefficient_share(const ValveTry& tried) const {
   return says ? speed_mps / (full_mps_ * std::sqrt(left_n)) : -1.0;
 }
 
-std::vector<CurvePoint> curve_points(const ExcavatorProfile& profile,
-                                     const std::vector<MachineLog>& logs,
+std::vector<CurvePoint> curve_points(const DriveModel& model, const std::vector<MachineLog>& logs,
                                      const MachineEstimate& found) {
-  const McvMachine valve = mcv_machine(profile);
   std::vector<CurvePoint> all;
-  for (const SteadyPoint& point : steady_points(logs, profile)) {
+  for (const SteadyPoint& point : steady_points(logs, model)) {
     const DriveEstimate& drive = found.drive[static_cast<std::size_t>(point.axis)];
-    const PreparedPoint prepared(profile, valve, point, drive);
+    const PreparedPoint prepared(model, point, drive);
     ValveTry tried;
     tried.cap_zero_pa = drive.cap_zero_pa.value;
     tried.rod_zero_pa = drive.rod_zero_pa.value;

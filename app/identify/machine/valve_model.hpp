@@ -27,8 +27,7 @@ struct SpeedError {
 class PreparedPoint {
  public:
   /// `drive` has the pressure zeros as far as they are known by then.
-  PreparedPoint(const ExcavatorProfile& profile, const McvMachine& machine,
-                const SteadyPoint& point, const DriveEstimate& drive);
+  PreparedPoint(const DriveModel& model, const SteadyPoint& point, const DriveEstimate& drive);
 
   [[nodiscard]] const SteadyPoint& point() const { return point_; }
   [[nodiscard]] bool extends() const { return point_.spool > 0.0; }
@@ -72,7 +71,7 @@ struct CurvePoint {
 };
 
 /// All that say something, with what was found of pumps and zeros.
-[[nodiscard]] std::vector<CurvePoint> curve_points(const ExcavatorProfile& profile,
+[[nodiscard]] std::vector<CurvePoint> curve_points(const DriveModel& model,
                                                    const std::vector<MachineLog>& logs,
                                                    const MachineEstimate& found);
 

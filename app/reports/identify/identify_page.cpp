@@ -9,7 +9,6 @@
 #include "app/machines/answer_section.hpp"
 #include "app/reports/identify/identify_report.hpp"
 #include "app/reports/identify/plot.hpp"
-#include "firmware/excavator/excavator_drives.hpp"
 
 namespace graben::reports {
 namespace {
@@ -69,12 +68,11 @@ std::string listed(const std::vector<std::string>& items) {
 }
 
 /// Old table: travel to the share of the coefficient.
-PlotPoints old_curve(const ExcavatorProfile& profile, int axis, bool extends) {
-  const SpoolAnswer answer = answer_of(profile, axis, extends);
+PlotPoints old_curve(const DriveRow& drive, bool extends) {
   PlotPoints points;
   for (double travel = 0.0; travel <= 1.0 + 1e-9; travel += 0.01) {
-    points.emplace_back(
-        travel, std::pow(answer.spool_to_duty.inverse(travel), profile.valve.opening_exponent));
+    points.emplace_back(travel, std::pow(drive.answer.side(extends).spool_to_duty.inverse(travel),
+                                         drive.metering.opening_exponent));
   }
   return points;
 }
@@ -88,12 +86,12 @@ PlotPoints new_curve(const SideEstimate& side) {
 }
 
 /// About the curve, by the deviations of the travel at each opening.
-PlotPoints band(const ExcavatorProfile& profile, const SideEstimate& side) {
+PlotPoints band(const DriveRow& drive, const SideEstimate& side) {
   PlotPoints left;
   PlotPoints right;
   for (std::size_t at = 0; at < side.duty.size(); ++at) {
     const double share = side.coefficient_factor.value *
-                         std::pow(kTableOpenings[at], profile.valve.opening_exponent);
+                         std::pow(kTableOpenings[at], drive.metering.opening_exponent);
     const double wide = kBand * side.duty_deviation[at];
     left.emplace_back(side.duty[at] - wide, share);
     right.emplace_back(side.duty[at] + wide, share);
@@ -102,7 +100,7 @@ PlotPoints band(const ExcavatorProfile& profile, const SideEstimate& side) {
   return left;
 }
 
-std::string curve_plot(const IdentifyReport& report,
+std::string curve_plot(const IdentifyReport& report, const DriveRow& drive,
                        const std::vector<identify::CurvePoint>& points, int axis, bool extends) {
   const auto k = static_cast<std::size_t>(axis);
   const SideEstimate& side = report.fit.machine.drive[k].side(extends);
@@ -124,10 +122,10 @@ std::string curve_plot(const IdentifyReport& report,
              1.1 * std::max(1.0, side.coefficient_factor.value)},
             kPlotWidth_px, kPlotHeight_px);
   if (!side.duty.empty()) {
-    plot.area("band", band(report.machine.profile, side));
+    plot.area("band", band(drive, side));
   }
   plot.dots("dot", fewer);
-  plot.line("old", old_curve(report.machine.profile, axis, extends));
+  plot.line("old", old_curve(drive, extends));
   if (side.edge.known) {
     plot.line("new", new_curve(side));
   }
@@ -167,15 +165,6 @@ LogStretch excerpt_of(const std::vector<identify::MachineLog>& logs, std::size_t
 }
 
 using Predicted = std::vector<std::vector<identify::PredictedSegment>>;
-
-Predicted predicted_by(const ExcavatorProfile& profile,
-                       const std::vector<identify::MachineLog>& logs) {
-  Predicted all;
-  for (const identify::MachineLog& log : logs) {
-    all.push_back(identify::predict_log(profile, log));
-  }
-  return all;
-}
 
 std::string motion_plot(const IdentifyReport& report, const Predicted& was, const Predicted& is,
                         std::size_t k) {
@@ -231,13 +220,12 @@ std::vector<std::string> unexplained(const IdentifyReport& report) {
   return items;
 }
 
-std::string curves(const IdentifyReport& report) {
-  const auto points =
-      identify::curve_points(report.machine.profile, report.logs, report.fit.machine);
+std::string curves(const IdentifyReport& report, const identify::DriveModel& old) {
+  const auto points = identify::curve_points(old, report.logs, report.fit.machine);
   std::string html = "<div class=\"plots\">\n";
   for (int axis = 0; axis < kAxisCount; ++axis) {
     for (const bool extends : {true, false}) {
-      html += curve_plot(report, points, axis, extends);
+      html += curve_plot(report, old.drive[static_cast<std::size_t>(axis)], points, axis, extends);
     }
   }
   return html + "</div>\n";
@@ -250,8 +238,9 @@ std::string section(const std::string& title, const std::string& text, const std
 }  // namespace
 
 std::string identify_page(const IdentifyReport& report) {
-  const Predicted was = predicted_by(report.machine.profile, report.logs);
-  const Predicted is = predicted_by(report.fit.profile, report.logs);
+  const identify::DriveModel old(report.machine.profile);
+  const Predicted was = predict_logs(old, report.logs);
+  const Predicted is = predict_logs(identify::DriveModel(report.fit.profile), report.logs);
   std::string motion;
   for (std::size_t k = 0; k < kAxisCount; ++k) {
     motion += motion_plot(report, was, is, k);
@@ -275,7 +264,7 @@ std::string identify_page(const IdentifyReport& report) {
   html += section("Opening curves",
                   "<span class=\"key n\">new</span> with its 95 % band, <span class=\"key "
                   "o\">old</span>, <span class=\"key d\">moments of steady motion</span>.",
-                  curves(report));
+                  curves(report, old));
   html += section("Speed, where each drive moved most",
                   "<span class=\"key\">measured</span>, predicted by the <span class=\"key "
                   "n\">new</span> and the <span class=\"key o\">old</span> profile.",

@@ -35,7 +35,7 @@ machines::ExcavatorMachine load(const std::string& text) {
 /// Boom's extending side, its zeros and pump 2 were found, nothing else.
 JudgedFit fit_of(const ExcavatorProfile& profile) {
   JudgedFit fit;
-  fit.machine = estimate_of(profile);
+  fit.machine = estimate_of(DriveModel(profile));
   DriveEstimate& boom = fit.machine.drive[kBoom];
   boom.extend.edge = {0.3, 0.002, true};
   boom.extend.coefficient_factor = {0.9, 0.01, true};

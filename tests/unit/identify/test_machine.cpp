@@ -31,7 +31,7 @@ struct Commissioned {
     assert_int_equal(run.end, runs::CommissionEnd::kDone);
     assert_true(run.machine_s < 300.0);
     logs.push_back(frames.log(machine.profile.pump_count));
-    found = identify_machine(machine.profile, logs, nothing);
+    found = identify_machine(DriveModel(machine.profile), logs, nothing);
   }
 
   machines::SimulatedExcavator machine;
@@ -94,8 +94,8 @@ TEST(what_is_not_driven_is_said) {
   const auto run = runs::run_commission(
       machine, options, [&](const LoggedFrame& frame) { frames.take(frame); }, nothing);
   assert_int_equal(run.end, runs::CommissionEnd::kDone);
-  const MachineEstimate found =
-      identify_machine(machine.profile, {frames.log(machine.profile.pump_count)}, nothing);
+  const MachineEstimate found = identify_machine(DriveModel(machine.profile),
+                                                 {frames.log(machine.profile.pump_count)}, nothing);
   assert_false(found.drive[kBucket].extend.edge.known);
   assert_true(found.drive[kArm].extend.edge.known);
   bool said = false;

@@ -9,7 +9,6 @@
 
 #include "app/identify/machine/log_split.hpp"
 #include "app/identify/machine/prediction_score.hpp"
-#include "app/identify/machine/speed_model.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/hydraulics/flow.hpp"
@@ -43,7 +42,7 @@ TEST(speeds_are_those_that_need_these_openings) {
   const std::array<ValveMoment, 4> moments = {moment(0.5, 0.0, 0.0), moment(0.0, -0.4, 0.0),
                                               moment(0.45, 0.5, -0.3), moment(-0.3, 0.35, 0.4)};
   for (const ValveMoment& now : moments) {
-    const std::array<double, kAxisCount> speed_mps = SpeedModel(machine()).speeds_mps(now);
+    const std::array<double, kAxisCount> speed_mps = DriveModel(machine()).speeds_mps(now);
     McvInput input;
     for (std::size_t k = 0; k < kAxisCount; ++k) {
       assert_true((speed_mps[k] != 0.0) == (now.opening[k] != 0.0));
@@ -68,9 +67,9 @@ TEST(a_load_that_drives_is_held_by_the_draining_edge) {
   ValveMoment now = moment(-0.3, 0.0, 0.0);
   now.rod_pa[kBoom] = 0.0;
   now.cap_pa[kBoom] = 8e6;
-  const double slow_mps = SpeedModel(machine()).speeds_mps(now)[kBoom];
+  const double slow_mps = DriveModel(machine()).speeds_mps(now)[kBoom];
   now.cap_pa[kBoom] = 16e6;
-  const double fast_mps = SpeedModel(machine()).speeds_mps(now)[kBoom];
+  const double fast_mps = DriveModel(machine()).speeds_mps(now)[kBoom];
   assert_true(slow_mps < 0.0);
   assert_near(fast_mps / slow_mps, std::sqrt(2.0), 1e-9);
 }
@@ -94,7 +93,8 @@ LogSegment segment(const std::vector<double>& duty) {
 }
 
 std::size_t starts_at(const ExcavatorProfile& profile, const MachineLog& log) {
-  const std::vector<double> speed_mps = predict_log(profile, log)[0].axis[kBoom].predicted_mps;
+  const std::vector<double> speed_mps =
+      predict_logs(DriveModel(profile), {log})[0][0].axis[kBoom].predicted_mps;
   std::size_t at = 0;
   while (at < speed_mps.size() && std::abs(speed_mps[at]) < 0.01) {
     ++at;
@@ -125,7 +125,8 @@ TEST(a_shut_valve_is_not_judged) {
   std::fill(duty.begin() + 100, duty.begin() + 200, 0.5);
   MachineLog log;
   log.segments = {segment(duty)};
-  const std::vector<bool> judged = predict_log(machine(), log)[0].axis[kBoom].judged;
+  const std::vector<bool> judged =
+      predict_logs(DriveModel(machine()), {log})[0][0].axis[kBoom].judged;
   assert_true(!judged[99] && judged[100] && judged[250] && !judged[270]);
 }
 
@@ -168,14 +169,14 @@ TEST(slower_and_later_are_told_apart) {
 
 TEST(a_measured_spool_tells_how_late_it_is) {
   PredictionScore off = score(pulses(1.0, 4), {{0, 0, 0, 2000}});
-  std::array<DriveEstimate, kAxisCount> found;
-  judge_spools(machine(), found, off);
+  DriveEstimates found;
+  judge_spools(DriveModel(machine()), found, off);
   assert_near(off.axis[kArm].extend.late_s, 0.04, 0.004);
   // The shipped machine has no dead time and twice 20 ms.
   found[kArm].extend.dead_time_s = {0.100, 0.002, true};
   found[kArm].pilot_lag_s.value = 0.010;
   found[kArm].spool_time_constant_s.value = 0.025;
-  judge_spools(machine(), found, off);
+  judge_spools(DriveModel(machine()), found, off);
   assert_near(off.axis[kArm].extend.late_s, 0.120, 1e-12);
   assert_true(!off.axis[kArm].retract.has_delay);
 }

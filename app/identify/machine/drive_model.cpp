@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/identify/machine/speed_model.hpp"
+#include "app/identify/machine/drive_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/hydraulics/flow.hpp"
+#include "firmware/mcv/circuit.hpp"
 #include "firmware/mcv/evaluation.hpp"
 
 namespace graben::identify {
@@ -63,21 +64,24 @@ void take_flow(const CircuitAxis& at_1_mps, double speed_mps, FlowBalance& line)
   }
 }
 
-}  // namespace
+/// An axis that is open.
+struct Open {
+  int axis = 0;
+  CircuitAxis at_1_mps;       ///< Flows are those of the speed.
+  double coefficient = 0.0;   ///< c_L, m/(s sqrt(N)).
+  double drained_mps = -1.0;  ///< By its draining edge, where nothing feeds it; else below 0.
+};
 
-SpeedModel::SpeedModel(const ExcavatorProfile& profile)
-    : profile_(profile), machine_(mcv_machine(profile)) {}
-
-double SpeedModel::drained_mps(const CircuitAxis& at_1_mps, const ValveMoment& moment, int axis,
-                               double area_ratio) const {
+double drained_mps(const DriveModel& model, const CircuitAxis& at_1_mps, const ValveMoment& moment,
+                   int axis, double area_ratio) {
   const auto k = static_cast<std::size_t>(axis);
   const double fed_pa = at_1_mps.extends ? moment.cap_pa[k] : moment.rod_pa[k];
   const double drained_pa = at_1_mps.extends ? moment.rod_pa[k] : moment.cap_pa[k];
   if (fed_pa > kFed_pa || drained_pa <= fed_pa) {
     return -1.0;
   }
-  const SpoolProfile& spool = profile_.valve.spool[k];
-  double out = profile_.valve.discharge * std::sqrt(2.0 / profile_.valve.density_kgpm3) *
+  const SpoolProfile& spool = model.drive[k].spool;
+  double out = model.metering.discharge * std::sqrt(2.0 / model.metering.density_kgpm3) *
                area_ratio * (at_1_mps.extends ? spool.extend_out_m2 : spool.retract_out_m2);
   if (at_1_mps.regeneration) {
     out = out * at_1_mps.c_drain / std::hypot(out, at_1_mps.c_drain);
@@ -85,19 +89,42 @@ double SpeedModel::drained_mps(const CircuitAxis& at_1_mps, const ValveMoment& m
   return out * std::sqrt(drained_pa) / at_1_mps.q_out_m3ps;
 }
 
-SpeedModel::Open SpeedModel::open_axis(const McvCircuit& circuit, const ValveMoment& moment,
-                                       int axis) const {
+Open open_axis(const DriveModel& model, const McvCircuit& circuit, const ValveMoment& moment,
+               int axis) {
   const auto k = static_cast<std::size_t>(axis);
   Open open;
   open.axis = axis;
   open.at_1_mps = circuit.axis[k];
-  const double area_ratio = std::pow(std::abs(moment.opening[k]), profile_.valve.opening_exponent);
+  const double area_ratio = std::pow(std::abs(moment.opening[k]), model.metering.opening_exponent);
   open.coefficient = area_ratio * open.at_1_mps.spool->y_last();
-  open.drained_mps = drained_mps(open.at_1_mps, moment, axis, area_ratio);
+  open.drained_mps = drained_mps(model, open.at_1_mps, moment, axis, area_ratio);
   return open;
 }
 
-std::array<double, kAxisCount> SpeedModel::speeds_mps(const ValveMoment& moment) const {
+}  // namespace
+
+DriveModel::DriveModel(const ExcavatorProfile& profile)
+    : drive(excavator_bank(profile).row),
+      valve(mcv_machine({drive.data(), profile.drive_count},
+                        {profile.pump.data(), profile.pump_count})),
+      quick(are_quick({drive.data(), profile.drive_count})),
+      metering(drive.front().metering),
+      answer{profile.valve.spool_to_duty, profile.control.dead_time_s, profile.control.response_s,
+             profile.oil.spool_time_constant_s},
+      pump(profile.pump),
+      cap_zero_pa(profile.sensor_zero.cap_pa),
+      rod_zero_pa(profile.sensor_zero.rod_pa) {}
+
+PerPump<double> DriveModel::flow_m3ps(double engine_radps,
+                                      const std::array<double, kPumpCount>& swash) const {
+  PerPump<double> each_m3ps{};
+  for (std::size_t j = 0; j < static_cast<std::size_t>(valve.pump_count); ++j) {
+    each_m3ps[j] = pump_flow_m3ps(pump[j], engine_radps, swash[j]);
+  }
+  return each_m3ps;
+}
+
+std::array<double, kAxisCount> DriveModel::speeds_mps(const ValveMoment& moment) const {
   std::array<double, kAxisCount> speeds{};
   McvInput input;
   for (std::size_t k = 0; k < kAxisCount; ++k) {
@@ -105,17 +132,14 @@ std::array<double, kAxisCount> SpeedModel::speeds_mps(const ValveMoment& moment)
     input.cap_pressure_pa[k] = std::max(0.0, moment.cap_pa[k]);
     input.rod_pressure_pa[k] = std::max(0.0, moment.rod_pa[k]);
   }
-  for (std::size_t j = 0; j < static_cast<std::size_t>(profile_.pump_count); ++j) {
-    input.pump_flow_m3ps[j] =
-        pump_flow_m3ps(profile_.pump[j], moment.engine_radps, moment.swash[j]);
-  }
-  const McvCircuit circuit = make_circuit(machine_, input);
-  for (unsigned j = 0; j < static_cast<unsigned>(profile_.pump_count); ++j) {
+  input.pump_flow_m3ps = flow_m3ps(moment.engine_radps, moment.swash);
+  const McvCircuit circuit = make_circuit(valve, input);
+  for (unsigned j = 0; j < static_cast<unsigned>(valve.pump_count); ++j) {
     std::vector<Open> opens;
     for (int axis = 0; axis < kAxisCount; ++axis) {
       const CircuitAxis& of = circuit.axis[static_cast<std::size_t>(axis)];
       if (of.moves && of.pump == j) {
-        opens.push_back(open_axis(circuit, moment, axis));
+        opens.push_back(open_axis(*this, circuit, moment, axis));
       }
     }
     if (opens.empty()) {

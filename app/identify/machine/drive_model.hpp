@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// All that identification asks of a machine's profile, made once where the profile enters: its
+/// drives and their valve, and by them alone the speeds of all cylinders at one moment, the valve's
+/// equations solved for the speeds, at given openings and loads.
+
+#include <array>
+
+#include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/mcv/mcv_machine.hpp"
+
+namespace graben {
+struct ExcavatorProfile;
+}
+
+namespace graben::identify {
+
+/// One moment of a machine. SI units; extension is positive.
+struct ValveMoment {
+  /// Share of the travel outside the dead band, its sign the side.
+  std::array<double, kAxisCount> opening{};
+  /// True pressures: the sensors' zeros are taken off.
+  std::array<double, kAxisCount> cap_pa{};
+  std::array<double, kAxisCount> rod_pa{};
+  std::array<double, kPumpCount> swash{};
+  double engine_radps = 0.0;
+};
+
+struct DriveModel {
+  explicit DriveModel(const ExcavatorProfile& profile);
+
+  /// At this engine speed and these shares of full swash, without pressure.
+  [[nodiscard]] PerPump<double> flow_m3ps(double engine_radps,
+                                          const std::array<double, kPumpCount>& swash) const;
+
+  /// Speeds that the pumps' lines, the loads and the openings leave: v = c_L(x) sqrt(F), (9) to
+  /// (12), and the flow balance (27) of each line, together. A cylinder whose load drives it while
+  /// no oil is behind it goes as fast as its draining edge lets it.
+  [[nodiscard]] std::array<double, kAxisCount> speeds_mps(const ValveMoment& moment) const;
+
+  std::array<DriveRow, kDriveCount> drive;
+  McvMachine valve;
+  bool quick;              ///< See are_quick().
+  SpoolMetering metering;  ///< The same of every section.
+  SpoolAnswer answer;      ///< Of the whole valve, whatever a side says by itself.
+  std::array<PumpProfile, kPumpCount> pump;
+  std::array<double, kAxisCount> cap_zero_pa;  ///< What the sensors show of no pressure.
+  std::array<double, kAxisCount> rod_zero_pa;
+};
+
+}  // namespace graben::identify
