@@ -276,16 +276,9 @@ std::string limit_name(const Limit& limit) {
       return "rise";
     case LimitKind::kDegraded:
       return fmt::format("degraded[{}]", limit.index);
-    case LimitKind::kImplementFlow:
-    case LimitKind::kTransmissionFlow:
-    case LimitKind::kAhead:
-    case LimitKind::kOffGrade:
-    case LimitKind::kSwingEnd:
-    case LimitKind::kFence:
-    case LimitKind::kOffPath:
-      break;
+    default:  // None of the solution's.
+      return "unknown";
   }
-  return "unknown";
 }
 
 const std::map<std::string, McvPolicy>& policies() {

@@ -104,19 +104,9 @@ bool limit_is_sound(const McvMachine& machine, const Limit& limit) {
     case LimitKind::kBackFlow:
     case LimitKind::kSpoolTravel:
       return limit.index < machine.actuator_count;
-    case LimitKind::kStrokeEnd:
-    case LimitKind::kRise:
-    case LimitKind::kDegraded:
-    case LimitKind::kImplementFlow:
-    case LimitKind::kTransmissionFlow:
-    case LimitKind::kAhead:
-    case LimitKind::kOffGrade:
-    case LimitKind::kSwingEnd:
-    case LimitKind::kFence:
-    case LimitKind::kOffPath:
-      break;
+    default:  // None of the solution's.
+      return false;
   }
-  return false;
 }
 
 std::string unsound_point(const McvMachine& machine, const McvInput& input,

@@ -73,7 +73,7 @@ ExcavatorValid validated_strokes(const ExcavatorModel& machine, const ExcavatorI
 /// kTaskUnknown unless the task that the operator asks for is there.
 FaultSet task_faults(const ExcavatorValid& valid, int program_count) {
   const bool known =
-      valid.task == Task::kNone || valid.task == Task::kDig || is_by_lever(valid.task) ||
+      valid.task == Task::kNone || is_by_field(valid.task) || is_by_lever(valid.task) ||
       valid.task == Task::kCommission ||
       (valid.task == Task::kProgram && valid.task_number >= 0 && valid.task_number < program_count);
   FaultSet faults;

@@ -42,6 +42,9 @@ void guard_tried_duties(DriveRows drives, const Cycle& cycle, const LastCommands
 [[nodiscard]] Limit tried_limit(DriveRows drives,
                                 const std::array<CommissionState, kDriveCount>& commission);
 
+/// True where a velocity field leads the teeth (motion/field).
+[[nodiscard]] inline bool is_by_field(Task task) { return task == Task::kDig; }
+
 /// True where the task is to move something by the operator's levers.
 [[nodiscard]] inline bool is_by_lever(Task task) {
   return task == Task::kJog || task == Task::kCoordinated;

@@ -60,7 +60,7 @@ DriveVector by_field(const Known& of) {
 void dig(const Known& of, Motion& motion) {
   const ExcavatorValid& valid = of.valid;
   const KinematicState& now = of.estimates.pose;
-  if (valid.task == Task::kDig && now.status == ReachStatus::kOk) {
+  if (is_by_field(valid.task) && now.status == ReachStatus::kOk) {
     motion.wanted_mps = by_field(of);
   }
   if (any_wary(of.inputs.watch.drives.blocked)) {
@@ -73,7 +73,7 @@ void dig(const Known& of, Motion& motion) {
                    motion);
   motion.path_error_m = path_error_m(of.sources.field.path(), now.tip);
   // A task that looks for its way is on no path.
-  motion.off_m = valid.task == Task::kDig ? motion.path_error_m : 0.0;
+  motion.off_m = is_by_field(valid.task) ? motion.path_error_m : 0.0;
 }
 
 void follow(const Known& of, const TaskProgram& program, const MotionMemory& state,
@@ -146,7 +146,7 @@ MotionUnderWay motion_under_way(const ExcavatorModel& machine, const TaskBook& b
   motion.on_plan = state.aim.kind != StepKind::kNone || hand.plans;
   motion.new_plan = hand.plans ? hand.is_new : state.task.state.time_s == 0.0;
   motion.planned_m = hand.plans ? hand.planned_m : travel_of(machine.profile, state.aim.value);
-  motion.for_oil = valid.task == Task::kDig || state.aim.cuts;
+  motion.for_oil = is_by_field(valid.task) || state.aim.cuts;
   return motion;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 /// It is laid around a path or a plan.
 bool has_tube(Task task) {
-  return task == Task::kDig || task == Task::kProgram || task == Task::kCoordinated;
+  return is_by_field(task) || task == Task::kProgram || task == Task::kCoordinated;
 }
 
 }  // namespace
