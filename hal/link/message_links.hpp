@@ -84,7 +84,8 @@ class MessageLinks {
     std::uint32_t id = 0;
     int index = kNoMessage;
   };
-  static constexpr std::size_t kPlaces = 4 * kMostMessages;
+  static constexpr std::size_t kPlaces = 64;
+  static_assert(kPlaces >= 2 * kMostMessages);
   static constexpr int kOwnMessage = -2;  ///< Instead of an index.
   /// Frames of one message with one stamp.
   struct Batch {

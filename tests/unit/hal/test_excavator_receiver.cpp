@@ -154,6 +154,6 @@ TEST(one_signal_is_lost_the_other_stays) {
 TEST(another_kinds_task_is_out_of_range, ExcavatorReceiver receiver) {
   const TimeUs now = synchronise<bus::OperatorCommand>(receiver);
   receiver.accept(frame_with<bus::OperatorCommand>(bus::OperatorCommand::kTask, 2, 3), now);
-  assert_int_equal(receiver.inputs().driver.task.value, Task::kCommission);
+  assert_int_equal(receiver.inputs().driver.task.value, bus::OperatorCommand::kTask.raw_max);
   assert_int_equal(receiver.link(bus::OperatorCommand::kId).out_of_range, 1);
 }
