@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -65,15 +66,21 @@ nlohmann::ordered_json run_program(const PlantCommand& options,
   if (!machine.profile.has_swing()) {
     refuse("--operator program", "an excavator with a swing drive");
   }
-  if (!has_errors_alone(options.scenario)) {
+  runs::TaskScenario tried;
+  tried.errors = options.scenario.errors;
+  tried.soil = options.scenario.scenario.ground;
+  tried.seed = options.scenario.scenario.seed;
+  runs::DigScenario others = options.scenario;
+  others.scenario.ground.clear();
+  if (!has_errors_alone(others)) {
     throw std::runtime_error(
-        fmt::format("{}: not with --operator program", runs::scenario_text(options.scenario)));
+        fmt::format("{}: not with --operator program", runs::scenario_text(others)));
   }
   const machines::TaskFile task =
       machines::load_task(machines::find_task(options.task.value_or("flatten")), machine.profile);
   run.task_number = static_cast<std::uint8_t>(options.task_number.value_or(0));
   return reports::plant_json(
-      runs::run_task_plant(runs::arranged(machine, options.scenario), task.result.program, run));
+      runs::run_task_plant(runs::arranged(machine, tried), task.result.program, run));
 }
 
 nlohmann::ordered_json run_excavator(const PlantCommand& options,
@@ -117,6 +124,10 @@ void plant_on_bus(const PlantCommand& options) {
   const machines::MachineKind kind = machines::profile_kind(profile);
   runs::PlantRunOptions run = options.run;
   run.player = player_of(options.player, kind);
+  if (!run.lets_go_s.empty() && run.player != runs::Player::kTask) {
+    throw std::runtime_error("--lets-go: only with --operator dig, grade or program");
+  }
+  std::sort(run.lets_go_s.begin(), run.lets_go_s.end());
   const nlohmann::ordered_json figures = kind == machines::MachineKind::kDozer
                                              ? run_dozer(options, profile, run)
                                              : run_excavator(options, profile, run);
@@ -161,6 +172,12 @@ void add_plant(CLI::App& app, int& status) {
                    "When that operator enables, 0 .. 3600 s")
       ->check(number_between(0.0, 3600.0))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--lets-go", options->run.lets_go_s,
+          "When an operator at dig, grade or program lets go for a second, 0 .. 1e6 s; more "
+          "often by naming it again")
+      ->check(number_between(0.0, 1e6));
   command->add_option(
       "--fault", options->run.faults,
       "A fault of the machine, NAME@SECONDS or NAME=VALUE@SECONDS, as "

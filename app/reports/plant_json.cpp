@@ -49,6 +49,8 @@ nlohmann::ordered_json plant_json(const runs::TaskPlantResult& result) {
                                     {"in_steps_s", result.in_steps_s},
                                     {"on_lines_s", result.on_lines_s},
                                     {"finished", result.finished},
+                                    {"built_within_ratio", result.built.within_ratio},
+                                    {"built_low_m", result.built.low_m},
                                     {"max_error_true_m", result.max_error_m},
                                     {"rmse_error_true_m", result.rmse_error_m}};
   add_command(figures, "", result.spool);

@@ -46,12 +46,18 @@ std::vector<plant::OperatorPhase> schedule(const PlantRunOptions& options, Task 
   const TimeUs begin_us = microseconds(options.enable_after_s);
   const TimeUs end_us = options.seconds > 0.0 ? microseconds(options.seconds) - kRelease_us
                                               : kMostShifts * (kShift_us + kPause_us);
+  const auto pause_at = [&](TimeUs pause_us) {
+    phases.push_back({pause_us, kAtRest});
+    work_from(pause_us + kPause_us);
+  };
   work_from(begin_us);
+  for (const double pause_s : options.lets_go_s) {
+    pause_at(microseconds(pause_s));
+  }
   if (options.player == Player::kShifts) {
     for (TimeUs pause_us = begin_us + kShift_us; pause_us + kPause_us < end_us;
          pause_us += kPause_us + kShift_us) {
-      phases.push_back({pause_us, kAtRest});
-      work_from(pause_us + kPause_us);
+      pause_at(pause_us);
     }
   }
   if (options.player == Player::kChanges) {

@@ -30,7 +30,9 @@ struct PlantRunOptions {
   Player player = Player::kNobody;
   double enable_after_s = 1.5;  ///< Then the operator enables, and 0.1 s later sets the task.
   double speed_override_ratio = 1.0;
-  std::uint8_t task_number = 0;     ///< Of Task::kProgram.
+  std::uint8_t task_number = 0;  ///< Of Task::kProgram.
+  /// When a player at its task lets go for a second, in their order.
+  std::vector<double> lets_go_s;
   std::vector<std::string> faults;  ///< As told_fault() reads them.
 };
 

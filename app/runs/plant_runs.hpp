@@ -9,6 +9,7 @@
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/plant/command_link.hpp"
 #include "app/plant/excavator_node.hpp"
+#include "app/runs/as_built.hpp"
 #include "app/runs/plant_bus.hpp"
 #include "firmware/excavator/motion/program/task_program.hpp"
 
@@ -54,7 +55,9 @@ struct TaskPlantResult {
   double enabled_s = 0.0;   ///< Time that the valve side let spools open.
   double in_steps_s = 0.0;  ///< Of it; the approach is none.
   double on_lines_s = 0.0;  ///< Of it, in straight steps.
-  bool finished = false;    ///< The last step was left, of a task that repeats for the first time.
+  /// The last step was left, of a task that repeats for the first time; an area is dug.
+  bool finished = false;
+  AsBuilt built;  ///< Of an area, in ground that is cut.
   double max_error_m = 0.0;
   double rmse_error_m = 0.0;
   plant::CommandCounters spool;

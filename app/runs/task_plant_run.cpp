@@ -8,6 +8,7 @@
 #include "app/runs/plant_faults.hpp"
 #include "app/runs/task_listener.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/program/line.hpp"
 
 namespace graben::runs {
@@ -25,7 +26,7 @@ class TaskObserver {
     }
     result_.enabled_s += kPlantPeriod_s;
     const std::optional<int> step = listener.step();
-    const bool begins_again = step && *step < last_step_;
+    const bool begins_again = step && *step < last_step_ && !in_layers(program_);
     result_.finished = result_.finished || listener.is_done() || begins_again;
     if (step && *step < program_.step_count) {
       last_step_ = *step;
@@ -75,6 +76,9 @@ TaskPlantResult run_task_plant(const machines::SimulatedExcavator& machine,
     node.step(now_us);
     observer.see(node, listener);
   });
+  if (const plant::BucketSoil* soil = node.plant().digging(); soil != nullptr) {
+    result.built = as_built(program, soil->ground());
+  }
   result.spool = node.counters();
   result.swing = node.swing_counters();
   result.peak_chamber_pressure_pa = node.plant().peak_chamber_pressure_pa();

@@ -17,7 +17,7 @@ import time
 
 import initramfs
 import kernel
-from scenario import Broken, Nowhere, Result, Scenario, status_in
+from scenario import ICOUNT_SHIFT, Broken, Nowhere, Result, Scenario, status_in
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODULES = ["can", "can_raw", "can_bcm", "can_gw", "can_isotp", "vcan", "sch_netem",
@@ -38,13 +38,11 @@ KERNEL_OPTIONS = [
     # Half of the boot's instructions: what the kernel tries of its own ciphers, its certificates.
     "cryptomgr.notests", "initcall_blacklist=init_kprobe_trace,load_system_certificate_list",
 ]
-# QEMU takes the exponent of 2.
-ICOUNT_SHIFT = 2
 NS_PER_INSTRUCTION = 2**ICOUNT_SHIFT
 QEMU_OPTIONS = [
     "-nodefaults", "-no-user-config", "-no-reboot", "-display", "none", "-serial", "stdio",
     # On the older "pc", ACPI's way to an interrupt costs a device a second.
-    "-machine", "q35", "-accel", "tcg", "-icount", f"shift={ICOUNT_SHIFT},sleep=off", "-smp", "1",
+    "-machine", "q35", "-accel", "tcg", "-smp", "1",
     # The wall clock follows the same count and starts at the same moment each time.
     "-rtc", "base=2026-01-01T00:00:00,clock=vm",
     # The seed of the kernel's random numbers, which are in its hash tables and addresses.
@@ -122,6 +120,7 @@ def command(image: pathlib.Path, ramdisk: str, scenario: Scenario, out: pathlib.
     # timeout, so that no machine is left over where this process is killed.
     return ["timeout", "--signal=KILL", f"{scenario.patience_s:g}",
             str(which("qemu-system-x86_64")), *QEMU_OPTIONS, *controllers,
+            "-icount", f"shift={scenario.icount_shift},sleep=off",
             "-m", str(MEMORY_WITH_ROOT_MB if scenario.root else MEMORY_MB),
             "-kernel", str(image), "-initrd", ramdisk, "-append", " ".join(KERNEL_OPTIONS),
             "-virtfs", f"local,path={shared},mount_tag=share,security_model=none"]

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 
 import guest
-from scenario import Broken, Nowhere, Scenario, tail
+from scenario import ICOUNT_SHIFT, Broken, Nowhere, Scenario, tail
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROFILES = HERE.parents[1] / "app" / "machines"
@@ -16,13 +16,14 @@ PROFILES = HERE.parents[1] / "app" / "machines"
 
 def run(script: str, out: pathlib.Path, programs: list[pathlib.Path],
         check: Callable[[pathlib.Path], list[str]], timeout_s: float, controllers: int = 0,
-        extra: dict[str, pathlib.Path] | None = None, modules: tuple[str, ...] = ()) -> int:
+        extra: dict[str, pathlib.Path] | None = None, modules: tuple[str, ...] = (),
+        icount_shift: int = ICOUNT_SHIFT) -> int:
     # Behind graben, what the guests' scripts call: plant, operate, commission; and the scope where it is tried.
     for graben in [program for program in programs if program.name == "graben"]:
         behind = ("graben-bus", "graben-scope") if script == "scope.sh" else ("graben-bus",)
         programs = [*programs, *(graben.with_name(name) for name in behind)]
     scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers, modules=modules,
-                        timeout_s=timeout_s, patience_s=max(1200.0, 8.0 * timeout_s),
+                        timeout_s=timeout_s, icount_shift=icount_shift, patience_s=max(1200.0, 8.0 * timeout_s),
                         files={"ecu.sh": HERE / "ecu.sh", **(extra or {}),
                                **{file.name: file for pattern in ("*.toml", "tasks/*.toml")
                                   for file in PROFILES.glob(pattern)}})
@@ -44,6 +45,6 @@ def run(script: str, out: pathlib.Path, programs: list[pathlib.Path],
 
 def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: float,
          controllers: int = 0, extra: dict[str, pathlib.Path] | None = None,
-         modules: tuple[str, ...] = ()) -> int:
+         modules: tuple[str, ...] = (), icount_shift: int = ICOUNT_SHIFT) -> int:
     out, *programs = map(pathlib.Path, sys.argv[1:])
-    return run(script, out, programs, check, timeout_s, controllers, extra, modules)
+    return run(script, out, programs, check, timeout_s, controllers, extra, modules, icount_shift)

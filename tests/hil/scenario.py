@@ -6,6 +6,8 @@ import pathlib
 import re
 
 TIMED_OUT = 124
+# In the virtual machine an instruction takes 2^ICOUNT_SHIFT ns.
+ICOUNT_SHIFT = 2
 VERDICT = re.compile(r"(?:exit (\d{1,3})|(timeout))\n?")
 
 
@@ -34,6 +36,8 @@ class Scenario:
     root: pathlib.Path | None = None
     # Of the scenario's own clock, which in the virtual machine is not the host's.
     timeout_s: float = 60.0
+    # Less for what the usual one is too slow for.
+    icount_shift: int = ICOUNT_SHIFT
     # For all of it, on the host's clock: long, because a busy host is no fault of the scenario's.
     patience_s: float = 600.0
 

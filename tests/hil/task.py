@@ -9,12 +9,14 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 
 import bus_log
 import resident
 import run_programs
 import stats_file
 from bus_log import ECU_HEALTH, SPOOL_COMMAND, VALVE_STATE
+from scenario import ICOUNT_SHIFT
 
 # The error may differ by so much from that of the bus in memory.
 SHARE = 0.5
@@ -54,10 +56,10 @@ RESOLUTION_M = 0.0015
 PERIOD_S, LATE_S = 0.010, 0.0015
 
 
-def in_memory(graben: pathlib.Path, task: str) -> dict:
+def in_memory(graben: pathlib.Path, *command: str | pathlib.Path) -> dict:
     with tempfile.TemporaryDirectory() as folder:
         summary = pathlib.Path(folder) / "summary.json"
-        subprocess.run([graben, task, "--out", folder, "--summary", summary],
+        subprocess.run([graben, *command, "--out", folder, "--summary", summary],
                        check=True, stdout=subprocess.DEVNULL)
         return json.loads(summary.read_text())
 
@@ -86,18 +88,10 @@ def check_frames(log: list[bus_log.Frame]) -> list[str]:
     return problems
 
 
-def check(task: str, graben: pathlib.Path, out: pathlib.Path) -> list[str]:
-    judged, enough_s = TASKS[task].judged, TASKS[task].enough_s
+def check_run(out: pathlib.Path) -> list[str]:
+    """What holds whatever the task was: its process, its frames, and that the task was finished."""
     summary = json.loads((out / "summary.json").read_text())
-    expected_m = in_memory(graben, task)["max_error_true_m"]
-    print(f"{task}: error {summary['max_error_true_m'] * 1e3:.2f} mm, in memory {expected_m * 1e3:.2f} mm, "
-          f"over {summary[judged]:.2f} s")
     problems = []
-    more_m = summary["max_error_true_m"] - expected_m
-    alike = (-max(SHARE * expected_m, RESOLUTION_M) <= more_m
-             <= max(TASKS[task].more * expected_m, RESOLUTION_M))
-    if summary[judged] < enough_s or not alike:
-        problems.append("the error is another one")
     if not summary.get("finished", True):
         problems.append("the task was not finished")
     for name in ("commands_rejected", "swing_commands_rejected"):
@@ -110,18 +104,40 @@ def check(task: str, graben: pathlib.Path, out: pathlib.Path) -> list[str]:
     return [*problems, *check_frames(log), *check_stats(out)]
 
 
-def main() -> int:
-    task, kind, seconds = sys.argv[1:4]
-    del sys.argv[1:4]
-    graben = next(pathlib.Path(path) for path in sys.argv if pathlib.Path(path).name == "graben")
+def check(task: str, graben: pathlib.Path, out: pathlib.Path) -> list[str]:
+    judged, enough_s = TASKS[task].judged, TASKS[task].enough_s
+    summary = json.loads((out / "summary.json").read_text())
+    expected_m = in_memory(graben, task)["max_error_true_m"]
+    print(f"{task}: error {summary['max_error_true_m'] * 1e3:.2f} mm, in memory {expected_m * 1e3:.2f} mm, "
+          f"over {summary[judged]:.2f} s")
+    problems = []
+    more_m = summary["max_error_true_m"] - expected_m
+    alike = (-max(SHARE * expected_m, RESOLUTION_M) <= more_m
+             <= max(TASKS[task].more * expected_m, RESOLUTION_M))
+    if summary[judged] < enough_s or not alike:
+        problems.append("the error is another one")
+    return [*problems, *check_run(out)]
+
+
+def graben_among(programs: list[str]) -> pathlib.Path:
+    return next(pathlib.Path(path) for path in programs if pathlib.Path(path).name == "graben")
+
+
+def run(kind: str, does: Task, seconds: float, judge: Callable[[pathlib.Path], list[str]], options: str = "",
+        extra: dict[str, pathlib.Path] | None = None, icount_shift: int = ICOUNT_SHIFT) -> int:
+    """`options`: more of `graben plant`, beside a file."""
     script, controllers = SCRIPTS[kind]
     with tempfile.TemporaryDirectory() as folder:
         told = pathlib.Path(folder) / "task"
-        does = TASKS[task]
-        told.write_text(f"{does.operator} {does.profile} {seconds} {does.file}\n")
-        return run_programs.main(script, functools.partial(check, task, graben),
-                                 timeout_s=float(seconds) + 30.0, controllers=controllers,
-                                 extra={"task": told})
+        told.write_text(f"{does.operator} {does.profile} {seconds:g} {does.file} {options}\n")
+        return run_programs.main(script, judge, timeout_s=seconds + 30.0, controllers=controllers,
+                                 extra={"task": told, **(extra or {})}, icount_shift=icount_shift)
+
+
+def main() -> int:
+    task, kind, seconds = sys.argv[1:4]
+    del sys.argv[1:4]
+    return run(kind, TASKS[task], float(seconds), functools.partial(check, task, graben_among(sys.argv)))
 
 
 if __name__ == "__main__":

@@ -4,10 +4,11 @@
 . ./hil.sh
 . ./ecu.sh
 
-read -r operator profile seconds program <task
+read -r operator profile seconds program options <task
 vcan_up vcan0
 record vcan0
 ecu_start vcan0 "$profile" ${program:+--task "$program"} --stats "$OUT/stats"
+# shellcheck disable=SC2086
 graben plant --can vcan0 --profile "$profile" --operator "$operator" --seconds "$seconds" \
-  ${program:+--task "$program"} --summary "$OUT/summary.json" || fail "the machine's process ended with $?"
+  ${program:+--task "$program"} $options --summary "$OUT/summary.json" || fail "the machine's process ended with $?"
 ecu_stop
