@@ -16,7 +16,7 @@ from scenario import ICOUNT_SHIFT
 HERE = pathlib.Path(__file__).resolve().parent
 AREA = HERE / "paused_dig.toml"
 TASK_STATUS = "18FF3882"
-APPROACH, DIG, SWING, DUMP, RETURN, DONE = 1, 2, 4, 5, 6, 7
+NONE, APPROACH, DIG, SWING, DUMP, RETURN, DONE = 0, 1, 2, 4, 5, 6, 7
 SOIL = "loam"
 # In the second cut of two; the unpaused run takes 77 s.
 LETS_GO_S, SECONDS = 55.0, 120.0
@@ -84,7 +84,8 @@ def check(digs: int, out: pathlib.Path) -> list[str]:
     if len(spells) != 2:
         return [f"active {len(spells)} times: {spells}"]
     (begin_s, left_s), (again_s, _) = spells
-    told = [frame for frame in log if frame.name == TASK_STATUS]
+    # At the ends of a spell it may say none yet, or already.
+    told = [frame for frame in log if frame.name == TASK_STATUS and frame.bits(16, 4) != NONE]
     return [*check_pause(log, left_s, again_s),
             *check_goes_on([frame for frame in told if begin_s <= frame.time <= left_s],
                            [frame for frame in told if again_s <= frame.time], digs),
