@@ -61,6 +61,9 @@ template <class Safety>
                                          "allowed error of a spool's position, of its travel");
   safety.uncommanded_m = reader.number("safety.uncommanded", {0.005, 0.5, "m"},
                                        "motion of a cylinder against its spool");
+  safety.sink_mps = reader.number_or(
+      0.002, "safety.sink", {0.0, 0.02, "m/s"},
+      "no faster does a cylinder sink whose spool is in its middle; 0.002 m/s without");
   safety.stuck_m = reader.number("safety.stuck", {0.005, 0.5, "m"},
                                  "motion asked of a cylinder that does not come");
   safety.tube_m = reader.number_or(

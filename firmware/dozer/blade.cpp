@@ -43,6 +43,7 @@ void fill_row(const DozerProfile& profile, const ImplementDrive& drive, DriveRow
   row.watch.senses_spool = profile.bus.spool_feedback;
   row.watch.rest_s = rest_s(row);
   row.watch.uncommanded_m = profile.safety.uncommanded_m;
+  row.watch.sink_mps = profile.safety.sink_mps;
   row.watch.stuck_m = profile.safety.stuck_m;
   row.watch.unseen_m = kBladeUnseen_m;
   row.watch.off_m = kBladeOff_m;

@@ -194,6 +194,7 @@ struct DozerSafety {
   double settle_s = 0.0;
   double spool_tolerance = 0.0;
   double uncommanded_m = 0.0;
+  double sink_mps = 0.0;  ///< No faster does the blade sink whose spool is in its middle.
   double stuck_m = 0.0;
   double tube_m = 0.0;   ///< See leaves_tube(); of the cutting edge about the design.
   double stall_s = 0.0;  ///< So long it may hardly get on, see stall_watch.hpp.

@@ -105,6 +105,7 @@ void remember(const ModeDecision& decision, const Outputs& outputs, const BankMo
   const double followed = decision.active() ? lambda : 0.0;
   memory.lambda = followed;
   memory.last = {in_motion(decision.mode.mode), outputs.enable, outputs.duty_ratio, {}};
+  memory.last.active = decision.active();
   for (unsigned k = 0; k < kMost; ++k) {
     memory.last.asked_mps[k] = followed * motion.corrected_mps[k];
     memory.last.opening[k] = memory.opening[k];

@@ -49,6 +49,7 @@ void read_drive(const DriveWatch& bounds, const DriveInputs& inputs, const Fresh
   faults.add(stroke.faults);
   read_required({&accepted.believed.signal, &valid.stroke_m, Fault::kStrokeMissing, Fault::kNone},
                 fresh, faults);
+  valid.stroke_known = fresh.number(accepted.believed.signal);
   if (bounds.senses_spool) {
     read_required(
         {&inputs.spool_ratio, &valid.spool_ratio, Fault::kSpoolMissing, Fault::kSensorError}, fresh,

@@ -16,6 +16,7 @@ struct ValidDrive {
   double cap_pressure_pa = 0.0;
   double rod_pressure_pa = 0.0;
   double spool_ratio = 0.0;
+  bool stroke_known = false;   ///< It is there, valid and in time.
   bool load_known = false;     ///< Both pressures may be used.
   bool stroke_is_new = false;  ///< It came since the last cycle.
 };

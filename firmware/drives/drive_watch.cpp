@@ -2,6 +2,7 @@
 #include "firmware/drives/drive_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "firmware/drives/tuning.hpp"
 #include "firmware/safety/common_inputs.hpp"
@@ -26,6 +27,32 @@ FaultSet watch_moving(DriveRows drives, const DriveCommands& last, Span<const Va
   }
   FaultSet stops = watch_motion(drives, seen, must_mps, period_s, state.motion);
   stops.add(watch_direction(drives, seen, state.direction));
+  return stops;
+}
+
+/// Where duties were tried it is not known how long their valves take: nobody asks once they have.
+FaultSet watch_rests(DriveRows drives, const DriveCommands& last, Span<const ValidDrive> seen,
+                     double period_s, DriveWatchView state, CommonValid& valid) {
+  FaultSet stops;
+  for (int i = 0; i < drives.count(); ++i) {
+    const DriveWatch& bounds = drives[i].watch;
+    RestState& rest = state.rest[i];
+    if (last.active || state.tried_s > 0.0) {
+      ask_of(drives[i], last.ask.asked_mps[i], rest);
+    } else if (!seen[i].stroke_known) {
+      rest.anchored = false;
+    } else {
+      const bool centred = bounds.senses_spool && !valid.faults.has(Fault::kSpoolMissing) &&
+                           std::abs(seen[i].spool_ratio) <= bounds.spool_tolerance;
+      const RestVerdict verdict =
+          watch_rest(drives[i], {seen[i].stroke_m, centred, valid.by_hand()}, period_s, rest);
+      if (verdict == RestVerdict::kMoves && !valid.by_hand()) {
+        stops.add(Fault::kUncommandedMotion);
+      } else if (verdict != RestVerdict::kRests) {
+        warn(Fault::kUncommandedMotion, valid);
+      }
+    }
+  }
   return stops;
 }
 
@@ -62,6 +89,7 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
   if (!state.closing) {
     stops.remove(Fault::kSpoolStuck);
   }
+  stops.add(watch_rests(drives, last, seen, period_s, state, valid));
   // Without their strokes and spools the drives cannot be checked, and the fault is there anyway.
   const bool moving = last.moving && valid.fault == Fault::kNone;
   const bool by_model = moving && !sent.tried;

@@ -9,6 +9,7 @@
 #include "firmware/drives/flow_watch.hpp"
 #include "firmware/drives/learnt_valve.hpp"
 #include "firmware/drives/motion_watch.hpp"
+#include "firmware/drives/rest_watch.hpp"
 #include "firmware/drives/spool_watch.hpp"
 #include "firmware/safety/common_inputs.hpp"
 
@@ -31,7 +32,8 @@ struct LastCommands {
   std::array<double, kMost> line_pa{};
   /// What the valve was sent beyond `duty_ratio`, to lead its spools through their lag.
   std::array<double, kMost> lead_ratio{};
-  bool tried = false;  ///< The duties were tried, on valves of which nothing is known.
+  bool tried = false;   ///< The duties were tried, on valves of which nothing is known.
+  bool active = false;  ///< Something may have been asked of the drives; Armed nothing is.
 };
 
 /// The same of any bank.
@@ -40,11 +42,13 @@ struct DriveCommands {
   // NOLINTNEXTLINE(google-explicit-constructor): a view of it.
   DriveCommands(const LastCommands<kMost>& last)
       : moving(last.moving),
+        active(last.active),
         sent{last.enable, last.duty_ratio, last.lead_ratio, last.tried},
         ask{last.towards_mps, last.asked_mps, last.line_pa},
         opening(last.opening) {}
 
   bool moving;
+  bool active;
   SentCommand sent;
   BlockedAsk ask;
   Span<const double> opening;
@@ -56,6 +60,7 @@ struct DriveWatchState {
   std::array<SpoolState, kMost> spool;
   std::array<BlockedState, kMost> blocked{};
   std::array<MotionState, kMost> motion{};
+  std::array<RestState, kMost> rest{};
   std::array<DirectionState, kMost> direction{};
   std::array<FlowState, kMost> flow{};
   std::array<LearntValve, kLearnt> learnt{};  ///< Kept when the machine stands.
@@ -73,6 +78,7 @@ struct DriveWatchView {
       : spool(state.spool),
         blocked(state.blocked),
         motion(state.motion),
+        rest(state.rest),
         direction(state.direction),
         flow(state.flow),
         learnt(state.learnt),
@@ -84,6 +90,7 @@ struct DriveWatchView {
   Span<SpoolState> spool;
   Span<BlockedState> blocked;
   Span<MotionState> motion;
+  Span<RestState> rest;
   Span<DirectionState> direction;
   Span<FlowState> flow;
   Span<LearntValve> learnt;
@@ -97,10 +104,13 @@ struct DriveWatchView {
 /// pressure only degrades (kPressureImplausible), and its drive's load is not known then. The state
 /// goes on by a cycle. A spool that is not measured counts as where it was sent.
 ///
-/// Outside motion the machine may be moved by hand: spools, drives and pressures are then not
-/// checked, and every watch begins newly. Only spools are, until all have been in their middle once
-/// or the operator has taken over in manual mode: one that stays open when the deadman is let go is
-/// stuck.
+/// While nothing is asked of the drives, in any mode, watch_rest() looks at them: one that moves is
+/// kUncommandedMotion; in manual mode, and one that sinks, it is only said.
+///
+/// Outside motion the machine may be moved by hand in manual mode: spools, pressures and what
+/// drives do with them are then not checked, and these watches begin newly. Only spools are, until
+/// all have been in their middle once or the operator has taken over in manual mode: one that stays
+/// open when the deadman is let go is stuck.
 ///
 /// While duties are tried, and for 1 s after, what rests on the valve's model is not looked at:
 /// only spools, for as long as the slowest takes, and pressures (commission_guard.hpp has the

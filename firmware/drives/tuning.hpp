@@ -339,6 +339,20 @@ inline constexpr double kParkingPathReverses_mps = 0.003;
 /// not tried]
 inline constexpr double kParkingWithin = 0.7;
 
+// Watch over drives at rest (rest_watch.cpp)
+
+/// Way within which a drive stands still. [m; chosen: noise of a stroke; not tried]
+inline constexpr double kRestStill_m = 0.002;
+/// Time for which a drive that was seen to move has to stand before its place counts as its rest.
+/// [s; chosen: not tried]
+inline constexpr double kRestStands_s = 1.0;
+/// Least time for which a drive is away from its rest before it is seen to move. [s; chosen: a
+/// value that is wrong for some frames is no motion; asked for by the safety case]
+inline constexpr double kRestMoves_s = 0.3;
+/// Factor on the way that a stopping drive's last command explains. [-; chosen: a drive may be as
+/// much faster than it was asked to be; not tried]
+inline constexpr double kRestCoast = 1.3;
+
 // Spool watch (spool_watch.cpp)
 
 /// Cycles in a row after which a wrong spool is stuck. [cycles; chosen: two of its frames, which

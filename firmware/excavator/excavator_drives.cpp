@@ -74,6 +74,7 @@ DriveRow cylinder_row(const ExcavatorProfile& profile, int axis, double leverage
   row.control.at_end = {LimitKind::kStrokeEnd, static_cast<std::uint8_t>(axis)};
   row.watch.fastest_mps = fastest_mps(profile, row);
   row.watch.uncommanded_m = profile.safety.uncommanded_m;
+  row.watch.sink_mps = profile.safety.sink_mps;
   row.watch.wrong_m = kStrokeWrong_m;
   row.watch.stuck_m = profile.safety.stuck_m;
   row.watch.off_m = std::clamp(kStrokeOffTip_m / leverage, kStrokeOffLeast_m, kStrokeOffMost_m) +

@@ -225,14 +225,15 @@ struct ControlProfile {
 
 /// Bounds that the watches hold the machine to. Ranges are checked where it is read.
 struct SafetyProfile {
-  double degraded_speed_ratio = 0.0;   ///< Of the task's speed, while a sensor is lost.
-  double idle_radps = 0.0;             ///< Engine at its slowest, assumed where its speed is lost.
-  double settle_s = 0.0;               ///< Of the slowest sound spool, see drive_bank.hpp.
-  double spool_tolerance = 0.0;        ///< Of the spool's travel.
-  double uncommanded_m = 0.0;          ///< A cylinder may go so far where its spool does not lead.
-  double stuck_m = 0.0;                ///< Asked of a cylinder whose stroke stands still.
-  double tube_m = 0.0;                 ///< See leaves_tube(); of the teeth about path and plan.
-  double stall_s = 0.0;                ///< So long it may hardly get on, see stall_watch.hpp.
+  double degraded_speed_ratio = 0.0;  ///< Of the task's speed, while a sensor is lost.
+  double idle_radps = 0.0;            ///< Engine at its slowest, assumed where its speed is lost.
+  double settle_s = 0.0;              ///< Of the slowest sound spool, see drive_bank.hpp.
+  double spool_tolerance = 0.0;       ///< Of the spool's travel.
+  double uncommanded_m = 0.0;         ///< A cylinder may go so far where its spool does not lead.
+  double sink_mps = 0.0;              ///< No faster does a drive sink whose spool is in its middle.
+  double stuck_m = 0.0;               ///< Asked of a cylinder whose stroke stands still.
+  double tube_m = 0.0;                ///< See leaves_tube(); of the teeth about path and plan.
+  double stall_s = 0.0;               ///< So long it may hardly get on, see stall_watch.hpp.
   double swing_uncommanded_rad = 0.0;  ///< As uncommanded_m, of the swing.
   double swing_stuck_rad = 0.0;        ///< As stuck_m, of the swing.
   double swash_tolerance = 0.0;        ///< Of full swash.

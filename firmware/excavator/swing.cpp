@@ -49,6 +49,8 @@ DriveRow swing_row(const ExcavatorProfile& profile) {
   row.watch.sensed_least_m = -(kSensedMost_rad * lever_m);
   row.watch.sensed_most_m = kSensedMost_rad * lever_m;
   row.watch.uncommanded_m = profile.safety.swing_uncommanded_rad * lever_m;
+  row.watch.rest_m = kSwingRest_rad * lever_m;
+  row.watch.brakes_s = 0.5 * swing.speed_max_radps / swing.acceleration_max_radps2;
   row.watch.wrong_m = kSwingWrong_rad * lever_m;
   row.watch.stuck_m = profile.safety.swing_stuck_rad * lever_m;
   row.watch.unseen_m = kSwingUnseen_rad * lever_m;

@@ -65,6 +65,9 @@ struct DriveWatch {
   double still_mps = 0.0;         ///< Below it a motor stands; of a motor only.
   double leak_mpspa = 0.0;        ///< Speed that it may lose by its own leakage, per pressure.
   double rest_s = 0.0;            ///< Until it has come to rest after its spool has closed.
+  double rest_m = kRestMoved_m;   ///< Way that it may go when nobody asks it to.
+  double brakes_s = 0.0;          ///< Half of the time that it takes to brake from its full speed.
+  double sink_mps = 0.0;          ///< No faster it sinks, with its spool in its middle.
   double relief_pa = 0.0;         ///< Of the pump's line; 0: none, or not known.
   double pressure_rail_pa = 0.0;  ///< Where the pressure sensors end.
 };

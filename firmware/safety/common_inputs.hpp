@@ -27,6 +27,9 @@ struct CommonValid {
   bool valve_enabled = false;
   double engine_radps = 0.0;  ///< The profile's idle where the measured one is lost.
   double idle_radps = 0.0;    ///< The profile's.
+
+  /// The operator has the machine: manual mode.
+  [[nodiscard]] bool by_hand() const { return !faults.has(Fault::kOperatorMissing) && !automatic; }
 };
 
 /// Bounds of an engine's speed.

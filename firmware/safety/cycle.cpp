@@ -45,15 +45,26 @@ TimeWatchResult watch_time(const TimeState& last, TimeUs now_us) {
   return result;
 }
 
-PilotResult pilot(const PilotState& last, const ModeState& mode, const FaultSet& faults) {
+PilotResult pilot(const PilotState& last, const ModeState& mode, const FaultSet& faults,
+                  bool by_hand, double period_s) {
   // Outside motion a spool is stuck only where it should have closed after it. Whatever stopped the
   // machine first must not hide it.
-  const bool disobeyed =
-      faults.has(Fault::kSpoolStuck) ||
-      (mode.mode == EcuMode::kFault && (cuts_pilot(mode.fault) || cuts_pilot(faults)));
+  const bool stopped = mode.mode == EcuMode::kFault;
+  FaultSet in_motion_too = faults;
+  if (last.fault_s > 0.0) {
+    in_motion_too.remove(Fault::kUncommandedMotion);  // By then it is one at rest.
+  }
+  const bool disobeyed = faults.has(Fault::kSpoolStuck) ||
+                         (stopped && (cuts_pilot(mode.fault) || cuts_pilot(in_motion_too)));
   PilotResult result;
   result.state.kept_cut = !in_motion(mode.mode) && (last.kept_cut || disobeyed);
-  result.cut = result.state.kept_cut || cuts_pilot(mode.fault) || cuts_pilot(faults);
+  result.state.fault_s = stopped ? std::min(last.fault_s + period_s, 2.0 * kDrivesStop_s) : 0.0;
+  const bool moves = !in_motion(mode.mode) && faults.has(Fault::kUncommandedMotion);
+  const bool unknown = stopped && faults.has(Fault::kSpoolMissing);
+  const bool asked = moves || unknown || result.state.fault_s > kDrivesStop_s;
+  result.state.at_rest = !in_motion(mode.mode) && !by_hand && (last.at_rest || asked);
+  result.cut =
+      result.state.kept_cut || result.state.at_rest || cuts_pilot(mode.fault) || cuts_pilot(faults);
   result.state.known = last.known || in_motion(mode.mode) || result.cut;
   return result;
 }
@@ -77,7 +88,7 @@ ModeDecision decide_mode(const CycleMemory& memory, const Cycle& cycle, const Co
                                valid.task != Task::kNone,
                                centred,
                                stop_requested};
-  return {request, next_mode(memory.mode, request)};
+  return {request, next_mode(memory.mode, request), cycle.period_s};
 }
 
 void take_refusal(Fault refused, ModeDecision& decision) {
@@ -89,7 +100,9 @@ void take_refusal(Fault refused, ModeDecision& decision) {
 void end_cycle(const ModeDecision& decision, const CommonValid& valid, CycleMemory& memory,
                MachineOutputs& outputs, MachineStatus& status) {
   const ModeState& mode = decision.mode;
-  const PilotResult pressure = pilot(memory.pilot, mode, valid.faults);
+  const PilotResult pressure =
+      pilot(memory.pilot, mode, valid.faults, valid.by_hand() && !decision.request.enable,
+            decision.period_s);
   outputs.pilot_cut = pressure.cut;
   outputs.pilot_known = pressure.state.known;
   status.mode = mode.mode;

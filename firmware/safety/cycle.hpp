@@ -40,6 +40,8 @@ struct TimeWatchResult {
 struct PilotState {
   bool kept_cut = false;  ///< Until the operator arms again.
   bool known = false;     ///< It has armed or asked for a cut since its start.
+  bool at_rest = false;   ///< Cut as nothing may move; until he arms, or has the machine by hand.
+  double fault_s = 0.0;   ///< For which a fault has stopped the machine.
 };
 
 struct PilotResult {
@@ -49,8 +51,13 @@ struct PilotResult {
 
 /// The cut lasts until the operator has armed again: a spool that did not obey may not have its
 /// pressure back because the deadman was let go.
+///
+/// It also goes when nothing may move: where a drive moves that nobody asks to (kUncommandedMotion
+/// outside motion), where the machine was stopped by a fault and its spools are not known, and 1 s
+/// after any fault that stopped it. Such a cut strands no machine: it ends as well when the
+/// operator has it `by_hand`, in manual mode with enable released.
 [[nodiscard]] PilotResult pilot(const PilotState& last, const ModeState& mode,
-                                const FaultSet& faults);
+                                const FaultSet& faults, bool by_hand, double period_s);
 
 /// State from cycle to cycle, whatever the machine.
 struct CycleMemory {
@@ -76,6 +83,7 @@ struct Cycle {
 struct ModeDecision {
   ModeRequest request;
   ModeState mode;
+  double period_s = 0.0;  ///< Of the cycle.
 
   [[nodiscard]] bool active() const { return mode.mode == EcuMode::kActive; }
 };

@@ -38,6 +38,13 @@ inline constexpr TimeUs kLateBucket_us = 60 * kMillisecondUs;
 /// may be late for ever; not tried]
 inline constexpr TimeUs kLateBucketLeak = 10;
 
+// Pilot pressure after a stop (cycle.cpp)
+
+/// Time after which the drives of a machine that a fault has stopped stand. [s; chosen: the slowest
+/// spool closes within 0.3 s, a cylinder's oil rings down within 0.5 s; a platform that still turns
+/// brakes against its reliefs with its spool closed; not tried]
+inline constexpr double kDrivesStop_s = 1.0;
+
 // A machine that hardly gets on (stall_watch.cpp)
 
 /// Share of what is asked below which a machine hardly gets on. [-; chosen: not tried]

@@ -67,8 +67,7 @@ BrakeState brake(const BrakeState& last, const ModeState& mode, const DozerValid
   const double coasting_s = std::min(last.coasting_s + period_s, 2.0 * kCoasting_s);
   const bool at_rest = valid.faults.has(Fault::kTransmissionMissing) ? coasting_s > kCoasting_s
                                                                      : tracks_at_rest(valid);
-  const bool by_hand = !valid.faults.has(Fault::kOperatorMissing) && !valid.automatic;
-  return {runs_away || at_rest || (last.wanted && !by_hand), coasting_s};
+  return {runs_away || at_rest || (last.wanted && !valid.by_hand()), coasting_s};
 }
 
 }  // namespace graben

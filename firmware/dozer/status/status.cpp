@@ -74,6 +74,7 @@ void remember(const DozerModel& machine, const DozerValid& valid, const DozerEst
        {outputs.blade_duty_ratio, outputs.tilt_duty_ratio},
        {active ? motion.blade.velocity_mps : 0.0, active ? motion.tilt.velocity_mps : 0.0}},
       {outputs.pump_ratio, outputs.motor_ratio}};
+  last.commands.drives.active = active;
 }
 
 }  // namespace graben

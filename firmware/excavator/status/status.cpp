@@ -62,8 +62,8 @@ void remember(const ExcavatorModel& machine, const ExcavatorValid& valid, const 
   const DriveVector asked_mps =
       asked * motion.cap.factor * (followed.as_wanted ? motion.wanted_mps : motion.corrected_mps);
   last.commands = {
-      in_motion(decision.mode.mode), enable,          sent.duty_ratio,       {}, {}, {},
-      last.commands.line_pa,         sent.lead_ratio, active && motion.tries};
+      in_motion(decision.mode.mode), enable,          sent.duty_ratio,        {},    {}, {},
+      last.commands.line_pa,         sent.lead_ratio, active && motion.tries, active};
   std::copy_n(asked_mps.data(), kDriveCount, last.commands.asked_mps.begin());
   for (int i = 0; i < machine.drives.count(); ++i) {
     const auto k = static_cast<unsigned>(i);

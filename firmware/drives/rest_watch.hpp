@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Watch over drives that nobody asks to move: after a stop, at rest, and in the operator's hands.
+
+#include "firmware/drives/drive_validation.hpp"
+
+namespace graben {
+
+/// State of one drive from cycle to cycle.
+struct RestState {
+  double anchor_m = 0.0;   ///< Where it stood, or stopped.
+  double coast_m = 0.0;    ///< Way that its last command explains; 0 once it has settled.
+  double stopped_s = 0.0;  ///< Since it was last asked to move.
+  double off_s = 0.0;      ///< For so long it has been away from its anchor.
+  double still_m = 0.0;    ///< Stroke at its last change.
+  double still_s = 0.0;    ///< Since then.
+  double sunk_m = 0.0;     ///< Way that it has sunk since it came to rest.
+  bool anchored = false;
+  bool moves = false;  ///< It has been seen to move, and has not come to rest since.
+};
+
+/// What is known of a drive in a cycle.
+struct RestSeen {
+  double stroke_m = 0.0;
+  bool centred = false;  ///< Its spool is measured, and in its middle.
+  bool by_hand = false;  ///< The operator has the machine, in manual mode.
+};
+
+enum class RestVerdict : std::uint8_t {
+  kRests,
+  kSinks,  ///< With its spool in its middle, no faster than `sink_mps`, by `rest_m`.
+  kMoves,  ///< By more than `rest_m` beyond what settling explains, and for longer than 0.3 s.
+};
+
+/// The drive was asked to move in the last cycle, as fast as `asked_mps`.
+void ask_of(const DriveRow& drive, double asked_mps, RestState& state);
+
+/// A cycle on without being asked. What settling explains: the way of the last command during dead
+/// time and lags, of a platform that brakes too. However slow it is, it is seen: a place is taken
+/// for a new rest only after the drive has stood still for 1 s, and only where it was seen to move
+/// or is in the operator's hands. Not known is where it stands while its stroke is missing.
+[[nodiscard]] RestVerdict watch_rest(const DriveRow& drive, const RestSeen& seen, double elapsed_s,
+                                     RestState& state);
+
+}  // namespace graben

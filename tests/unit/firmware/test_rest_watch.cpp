@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives that nobody asks to move.
+
+#include "firmware/drives/rest_watch.hpp"
+
+#include <cmath>
+
+#include "tests/unit/cmocka_cpp.hpp"
+
+constexpr double kCycle_s = 0.01;
+
+/// A drive whose speed and spool are told, after it was last asked for a speed.
+struct Resting {
+  DriveRow row;
+  RestState state;
+  RestSeen seen;
+  RestVerdict verdict = RestVerdict::kRests;
+  double way_m = 0.0;   ///< Since it was last asked.
+  double time_s = 0.0;  ///< The same.
+
+  Resting() {
+    row.answer.extend.dead_time_s = row.answer.retract.dead_time_s = 0.05;
+    row.watch.settle_s = 0.1;
+    row.watch.rest_s = 0.5;
+    row.watch.sink_mps = 0.002;
+    seen.stroke_m = 0.7;
+  }
+  void ask(double mps) {
+    ask_of(row, mps, state);
+    way_m = 0.0;
+    time_s = 0.0;
+  }
+  void move(double mps) {
+    seen.stroke_m += mps * kCycle_s;
+    way_m += std::abs(mps) * kCycle_s;
+    time_s += kCycle_s;
+    verdict = watch_rest(row, seen, kCycle_s, state);
+  }
+  void move_for(double mps, double seconds) {
+    repeat(static_cast<int>(std::lround(seconds / kCycle_s)), [&] { move(mps); });
+  }
+  /// Way until it is seen to move; at most 1 m.
+  double seen_after_m(double mps) {
+    while (verdict != RestVerdict::kMoves && way_m < 1.0) {
+      move(mps);
+    }
+    return way_m;
+  }
+};
+
+TEST(a_drive_that_stands_rests, Resting drive) {
+  drive.ask(0.4);
+  drive.move_for(0.0, 60.0);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+}
+
+TEST(one_that_goes_on_is_seen_after_50_mm, Resting drive) {
+  for (const double mps : {0.003, 0.01, 0.06, 0.16, -0.01, -0.16}) {
+    Resting moved = drive;
+    moved.ask(0.0);
+    moved.move(0.0);
+    assert_near(moved.seen_after_m(mps), 0.05, 0.004);
+  }
+}
+
+/// Before that it takes 0.3 s.
+TEST(a_fast_one_is_seen_after_some_time, Resting drive) {
+  drive.ask(0.0);
+  drive.move(0.0);
+  drive.seen_after_m(0.5);
+  assert_near(drive.time_s, 0.32, 0.02);
+}
+
+/// Up to the speed at which drives sink, and no faster.
+TEST(a_spool_in_its_middle_excuses_sinking_alone, Resting drive) {
+  drive.seen.centred = true;
+  Resting moved = drive;
+  assert_near(moved.seen_after_m(0.01), 0.0625, 0.004);
+  drive.move_for(-0.0015, 30.0);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+  drive.move_for(-0.0015, 5.0);
+  assert_int_equal(drive.verdict, RestVerdict::kSinks);
+}
+
+TEST(without_a_spool_sinking_is_motion, Resting drive) {
+  assert_near(drive.seen_after_m(-0.0015), 0.05, 0.004);
+}
+
+/// The way of its last command during dead time and lags, and no more of it afterwards.
+TEST(what_settling_explains_is_no_motion, Resting drive) {
+  drive.ask(0.4);
+  drive.move_for(0.4, 0.1);
+  drive.move_for(0.0, 5.0);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+  drive.move_for(0.1, 0.45);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+  drive.move_for(0.1, 0.1);
+  assert_int_equal(drive.verdict, RestVerdict::kMoves);
+
+  Resting runs_on;
+  runs_on.ask(0.4);
+  const double for_s = spool_starts_s(runs_on.row) + 2.0 * spool_lag_s(runs_on.row);
+  assert_true(runs_on.seen_after_m(0.4) < 0.05 + 1.3 * 0.4 * for_s + 0.01);
+}
+
+TEST(a_swing_may_brake, Resting drive) {
+  drive.row.watch.brakes_s = 1.0;
+  drive.row.watch.rest_s = 2.5;
+  drive.ask(0.3);
+  drive.move_for(0.15, 1.5);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+}
+
+/// It is at rest again once it has stood for 1 s.
+TEST(what_was_seen_to_move_has_to_stand, Resting drive) {
+  drive.seen_after_m(0.1);
+  drive.move_for(0.0, 0.9);
+  assert_int_equal(drive.verdict, RestVerdict::kMoves);
+  drive.move_for(0.0, 0.2);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+  drive.way_m = 0.0;
+  assert_near(drive.seen_after_m(0.1), 0.05, 0.004);
+}
+
+/// In the operator's hands each place where it stood is one.
+TEST(by_hand_it_begins_where_it_was_left, Resting drive) {
+  const auto twice = [&] {
+    repeat(2, [&] {
+      drive.move_for(0.1, 0.4);
+      drive.move_for(0.0, 1.2);
+    });
+  };
+  drive.seen.by_hand = true;
+  twice();
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+  drive.seen.by_hand = false;
+  drive.move_for(0.1, 0.4);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+  drive.move_for(0.0, 1.2);
+  drive.move_for(0.1, 0.4);
+  assert_int_equal(drive.verdict, RestVerdict::kMoves);
+}
+
+/// A jump that is gone within 0.3 s is none.
+TEST(a_value_that_is_wrong_for_some_frames_is_no_motion, Resting drive) {
+  drive.move_for(0.0, 1.0);
+  drive.seen.stroke_m += 0.2;
+  drive.move_for(0.0, 0.25);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+  drive.seen.stroke_m -= 0.2;
+  drive.move_for(0.0, 1.0);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+}
