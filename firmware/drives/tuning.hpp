@@ -341,8 +341,9 @@ inline constexpr double kParkingWithin = 0.7;
 
 // Watch over drives at rest (rest_watch.cpp)
 
-/// Way within which a drive stands still. [m; chosen: noise of a stroke; not tried]
-inline constexpr double kRestStill_m = 0.002;
+/// Way within which a drive stands still. [m; chosen: noise of strokes as bad as the fault cases
+/// draw them; with 0.002 none came to rest]
+inline constexpr double kRestStill_m = 0.01;
 /// Time for which a drive that was seen to move has to stand before its place counts as its rest.
 /// [s; chosen: not tried]
 inline constexpr double kRestStands_s = 1.0;
