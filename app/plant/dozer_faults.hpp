@@ -57,6 +57,7 @@ struct DozerFaults : NodeFaults {
   double spool_offset_ratio = 0.0;
   /// Hoses or valve are reversed: its oil goes the other way, its sensor shows what was commanded.
   bool reversed = false;
+  bool echoes = false;  ///< Its sensor shows what it is sent.
   PoseFaults pose;
   std::array<PathFaults, kTrackCount> path;
   /// PumpDisplacementCommand and MotorDisplacementCommand do not reach the machine.

@@ -100,7 +100,8 @@ void DozerNode::take_spool_command(const CanFrame& frame, TimeUs now) {
     return;
   }
   enabled_ = true;
-  plant_.set_blade_duty(duty_ratio.value, true);
+  blade_duty_ = duty_ratio.value;
+  plant_.set_blade_duty(blade_duty_, true);
   plant_.set_tilt_duty(tilt_ratio.value, true);
 }
 
@@ -136,6 +137,7 @@ void DozerNode::take_motor_command(const CanFrame& frame, TimeUs now) {
 
 void DozerNode::go_neutral() {
   enabled_ = false;
+  blade_duty_ = 0.0;
   plant_.set_blade_duty(0.0, false);
   plant_.set_tilt_duty(0.0, false);
 }
@@ -175,8 +177,8 @@ void DozerNode::send_transmission(TimeUs now) {
 
 void DozerNode::send_valve(TimeUs now) {
   bus::ValveState message = valve_state();
-  message.blade_spool_ratio =
-      valid(faults_.reversed ? -plant_.spool_travel_ratio() : plant_.spool_travel_ratio());
+  const double travel_ratio = faults_.echoes ? blade_duty_ : plant_.spool_travel_ratio();
+  message.blade_spool_ratio = valid(faults_.reversed ? -travel_ratio : travel_ratio);
   if (plant_.tilt()) {
     message.tilt_spool_ratio = valid(plant_.tilt()->spool_travel_ratio());
   }

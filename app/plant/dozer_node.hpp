@@ -63,6 +63,7 @@ class DozerNode : public MachineNode<dbc::dozer::Dbc, DozerPlant, DozerFaults> {
   NeutralFirst pump_silence_;
   bool stopping_ = false;  ///< By itself; the brake is to close.
   TimeUs stopping_since_us_ = 0;
+  double blade_duty_ = 0.0;  ///< That its valve is sent.
   DozerPlant::TrackArray pump_ratio_{};
   DozerPlant::TrackArray motor_ratio_ = {1.0, 1.0};
 };

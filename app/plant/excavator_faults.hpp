@@ -25,6 +25,7 @@ struct SpoolFaults {
   double spool_offset_ratio = 0.0;
   /// Hoses or valve are reversed: its oil goes the other way, its sensor shows what was commanded.
   bool reversed = false;
+  bool echoes = false;  ///< Its sensor shows what it is sent.
 };
 
 struct AxisFaults : SpoolFaults {

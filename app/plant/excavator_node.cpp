@@ -288,6 +288,7 @@ void ExcavatorNode::send_valve(TimeUs now) {
   auto spool = plant_.spool_travels_ratio();
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     spool[i] = faults_.axis[i].reversed ? -spool[i] : spool[i];
+    spool[i] = faults_.axis[i].echoes ? (enabled_ ? duty_[i] : 0.0) : spool[i];
   }
   bus::ValveState message = valve_state();
   message.boom_spool_ratio = valid(spool[kBoom]);

@@ -27,7 +27,6 @@ struct DozerLastCycle {
   DozerLastCommands commands;
   std::array<double, kBladeCount> asked_mps{};  ///< Of lift and tilt, as far as the flow goes.
   bool fed = true;                              ///< The pump gives what both ask for.
-  double speed_mps = 0.0;                       ///< v_c; 0 out of motion.
   StallState stall;
   TubeState tube;       ///< Around the design.
   TubeState off_track;  ///< Around a track that curves.

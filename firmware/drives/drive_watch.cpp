@@ -35,17 +35,18 @@ FaultSet watch_rests(DriveRows drives, const DriveCommands& last, Span<const Val
                      double period_s, DriveWatchView state, CommonValid& valid) {
   FaultSet stops;
   for (int i = 0; i < drives.count(); ++i) {
-    const DriveWatch& bounds = drives[i].watch;
+    const DriveWatch& watch = drives[i].watch;
+    const RestBounds bounds = rest_bounds(drives[i]);
     RestState& rest = state.rest[i];
     if (last.active || state.tried_s > 0.0) {
-      ask_of(drives[i], last.ask.asked_mps[i], rest);
+      ask_of(bounds, last.ask.asked_mps[i], rest);
     } else if (!seen[i].stroke_known) {
       rest.anchored = false;
     } else {
-      const bool centred = bounds.senses_spool && !valid.faults.has(Fault::kSpoolMissing) &&
-                           std::abs(seen[i].spool_ratio) <= bounds.spool_tolerance;
+      const bool centred = watch.senses_spool && !valid.faults.has(Fault::kSpoolMissing) &&
+                           std::abs(seen[i].spool_ratio) <= watch.spool_tolerance;
       const RestVerdict verdict =
-          watch_rest(drives[i], {seen[i].stroke_m, centred, valid.by_hand()}, period_s, rest);
+          watch_rest(bounds, {seen[i].stroke_m, centred, valid.by_hand()}, period_s, rest);
       if (verdict == RestVerdict::kMoves && !valid.by_hand()) {
         stops.add(Fault::kUncommandedMotion);
       } else if (verdict != RestVerdict::kRests) {

@@ -19,8 +19,8 @@ void begin(double stroke_m, RestState& state) {
 }
 
 /// What it went on by, as far as its last command explains it.
-void settle(const DriveRow& drive, double stroke_m, RestState& state) {
-  if (state.coast_m > 0.0 && state.stopped_s >= drive.watch.rest_s) {
+void settle(const RestBounds& bounds, double stroke_m, RestState& state) {
+  if (state.coast_m > 0.0 && state.stopped_s >= bounds.rest_s) {
     state.anchor_m += std::clamp(stroke_m - state.anchor_m, -state.coast_m, state.coast_m);
     state.coast_m = 0.0;
   }
@@ -36,8 +36,8 @@ void follow_stillness(double stroke_m, double elapsed_s, RestState& state) {
 }
 
 /// A drive that sinks on its oil takes its anchor along.
-void sink(const DriveRow& drive, double stroke_m, double elapsed_s, RestState& state) {
-  const double most_m = drive.watch.sink_mps * elapsed_s;
+void sink(const RestBounds& bounds, double stroke_m, double elapsed_s, RestState& state) {
+  const double most_m = bounds.sink_mps * elapsed_s;
   const double step_m = std::clamp(stroke_m - state.anchor_m, -most_m, most_m);
   state.anchor_m += step_m;
   state.sunk_m += step_m;
@@ -45,35 +45,39 @@ void sink(const DriveRow& drive, double stroke_m, double elapsed_s, RestState& s
 
 }  // namespace
 
-void ask_of(const DriveRow& drive, double asked_mps, RestState& state) {
-  const double for_s = spool_starts_s(drive) + 2.0 * spool_lag_s(drive) + drive.watch.brakes_s;
-  state.coast_m = kRestCoast * std::abs(asked_mps) * for_s;
+RestBounds rest_bounds(const DriveRow& drive) {
+  const double coast_s = spool_starts_s(drive) + 2.0 * spool_lag_s(drive) + drive.watch.brakes_s;
+  return {drive.watch.rest_m, drive.watch.rest_s, coast_s, drive.watch.sink_mps};
+}
+
+void ask_of(const RestBounds& bounds, double asked_mps, RestState& state) {
+  state.coast_m = kRestCoast * std::abs(asked_mps) * bounds.coast_s;
   state.anchored = false;
 }
 
-RestVerdict watch_rest(const DriveRow& drive, const RestSeen& seen, double elapsed_s,
+RestVerdict watch_rest(const RestBounds& bounds, const RestSeen& seen, double elapsed_s,
                        RestState& state) {
   const double stroke_m = seen.stroke_m;
   if (!state.anchored) {
     begin(stroke_m, state);
   }
-  state.stopped_s = std::min(state.stopped_s + elapsed_s, drive.watch.rest_s);
-  settle(drive, stroke_m, state);
+  state.stopped_s = std::min(state.stopped_s + elapsed_s, bounds.rest_s);
+  settle(bounds, stroke_m, state);
   follow_stillness(stroke_m, elapsed_s, state);
   if (state.still_s >= kRestStands_s && (state.moves || seen.by_hand)) {
     begin(stroke_m, state);
   }
   if (seen.centred) {
-    sink(drive, stroke_m, elapsed_s, state);
+    sink(bounds, stroke_m, elapsed_s, state);
   }
   const double off_m = std::abs(stroke_m - state.anchor_m);
   state.off_s = off_m > kRestStill_m ? state.off_s + elapsed_s : 0.0;
   state.moves =
-      state.moves || (off_m > drive.watch.rest_m + state.coast_m && state.off_s >= kRestMoves_s);
+      state.moves || (off_m > bounds.rest_m + state.coast_m && state.off_s >= kRestMoves_s);
   if (state.moves) {
     return RestVerdict::kMoves;
   }
-  return std::abs(state.sunk_m) > drive.watch.rest_m ? RestVerdict::kSinks : RestVerdict::kRests;
+  return std::abs(state.sunk_m) > bounds.rest_m ? RestVerdict::kSinks : RestVerdict::kRests;
 }
 
 }  // namespace graben

@@ -19,6 +19,15 @@ struct RestState {
   bool moves = false;  ///< It has been seen to move, and has not come to rest since.
 };
 
+/// What a drive that nobody asks may do.
+struct RestBounds {
+  double rest_m = 0.0;    ///< Way that it may go.
+  double rest_s = 0.0;    ///< Until it has come to rest after its last command.
+  double coast_s = 0.0;   ///< Its way until then, over the speed that it was asked for.
+  double sink_mps = 0.0;  ///< No faster it sinks, with its spool in its middle.
+};
+[[nodiscard]] RestBounds rest_bounds(const DriveRow& drive);
+
 /// What is known of a drive in a cycle.
 struct RestSeen {
   double stroke_m = 0.0;
@@ -33,13 +42,13 @@ enum class RestVerdict : std::uint8_t {
 };
 
 /// The drive was asked to move in the last cycle, as fast as `asked_mps`.
-void ask_of(const DriveRow& drive, double asked_mps, RestState& state);
+void ask_of(const RestBounds& bounds, double asked_mps, RestState& state);
 
 /// A cycle on without being asked. What settling explains: the way of the last command during dead
 /// time and lags, of a platform that brakes too. However slow it is, it is seen: a place is taken
 /// for a new rest only after the drive has stood still for 1 s, and only where it was seen to move
 /// or is in the operator's hands. Not known is where it stands while its stroke is missing.
-[[nodiscard]] RestVerdict watch_rest(const DriveRow& drive, const RestSeen& seen, double elapsed_s,
-                                     RestState& state);
+[[nodiscard]] RestVerdict watch_rest(const RestBounds& bounds, const RestSeen& seen,
+                                     double elapsed_s, RestState& state);
 
 }  // namespace graben

@@ -243,7 +243,10 @@ void Trial<Kind>::expect_arms_again() {
   rig->run(50 * kMillisecondUs);
   rig->ask(true, Task::kNone);
   rig->run(100 * kMillisecondUs);
-  check(rig->mode() == EcuMode::kArmed, "not Armed by a fresh enable");
+  check(rig->mode() == EcuMode::kArmed,
+        fmt::format("not Armed by a fresh enable ('{}', why not {:x})",
+                    runs::fault_words(rig->outputs().status.fault),
+                    rig->outputs().status.why_not_armed));
   rig->ask(true, Kind::kTask);
   rig->run(100 * kMillisecondUs);
   check(rig->mode() == EcuMode::kActive && rig->enabled(), "not Active after re-arming");

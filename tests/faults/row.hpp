@@ -76,7 +76,7 @@ template <class Kind>
 template <class Kind>
 [[nodiscard]] Rows<Kind> bus_rows();  ///< 24 - 32
 template <class Kind>
-[[nodiscard]] Rows<Kind> machine_rows();  ///< 33 - 36
+[[nodiscard]] Rows<Kind> machine_rows();  ///< 33 - 36, 80
 template <class Kind>
 [[nodiscard]] Rows<Kind> process_rows();  ///< 41 - 48, 50
 template <class Kind>

@@ -32,6 +32,38 @@ void displacement_stuck(Trial<Dozer>& trial) {
   trial.expect_stop(stop);
 }
 
+/// Both pumps stay where they are as the operator lets go, and say that they are at 0.
+void drives_on_after_the_stop(Trial<Dozer>& trial) {
+  constexpr double kMostWay_m = 0.7;
+  trial.work();
+  Rig<Dozer>& rig = *trial.rig;
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    plant::PathFaults& path = rig.plant.faults().path[i];
+    path.pump.held_ratio = rig.plant.plant().pump_ratios()[i];
+    path.shown_pump_ratio = 0.0;
+  }
+  rig.ask(false, Task::kNone);
+  rig.run(2 * kCycle_us);
+  const TimeUs stopped_us = rig.now_us;
+  const double from_m = rig.plant.plant().position_m();
+  const bool brakes = rig.run_until(
+      4 * kSecondUs, [&rig, stopped_us] { return rig.record.first_brake_us(stopped_us) >= 0; });
+  trial.check(brakes, "does not ask for its brake");
+  trial.outcome.to_detection_us = rig.now_us - stopped_us;
+  rig.run(2 * kSecondUs);
+  trial.outcome.harm = std::abs(rig.plant.plant().position_m() - from_m);
+  trial.outcome.harm_unit = "m";
+  trial.check(trial.outcome.harm <= kMostWay_m,
+              "drives on by " + std::to_string(trial.outcome.harm) + " m");
+  trial.saw("N");
+  for (plant::PathFaults& path : rig.plant.faults().path) {
+    path.pump.held_ratio.reset();
+    path.shown_pump_ratio.reset();
+  }
+  rig.run(2 * kSecondUs);
+  trial.expect_arms_again();
+}
+
 constexpr double kNearFull = 0.6;
 /// What a displacement was told within the time to settle is where it may be.
 constexpr TimeUs kSettled_us = 600 * kMillisecondUs;
@@ -111,7 +143,8 @@ Rows<Dozer> dozer_rows() {
           {38, "displacement does not follow", "N L", displacement_stuck},
           {39, "displacement runs away, wrong direction", "N L", displacement_runs_away},
           {40, "track speed disagrees", "D", track_speed_wrong},
-          {49, "cylinder runs towards its end stop", "D", runs_at_its_end}};
+          {49, "cylinder runs towards its end stop", "D", runs_at_its_end},
+          {81, "pumps stay open after the stop, unseen", "N", drives_on_after_the_stop}};
 }
 
 }  // namespace graben::faults

@@ -141,7 +141,8 @@ Rows<Excavator> excavator_rows() {
           {38, "swash disagrees with its command", "D", swash_wrong},
           {39, "HST displacement runs away", "not of this machine", nullptr},
           {40, "track speeds disagree", "not of this machine", nullptr},
-          {49, "cylinder runs towards its end stop", "D", runs_at_its_end}};
+          {49, "cylinder runs towards its end stop", "D", runs_at_its_end},
+          {81, "pumps stay open after the stop, unseen", "not of this machine", nullptr}};
 }
 
 }  // namespace graben::faults

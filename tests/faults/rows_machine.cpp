@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows 33 to 36: the machine does not do, or does not show, what it was told.
+// Rows 33 to 36 and 80: the machine does not do, or does not show, what it was told.
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +103,43 @@ void stroke_stuck(Trial<Kind>& trial) {
   trial.expect_stop(stop);
 }
 
+/// A spool that is held open goes on as the machine stops. By turns: its valve says nothing any
+/// more, or that it does what it is sent, while the operator lets go. True way of its cylinder from
+/// the first neutral on.
+template <class Kind>
+void goes_on_after_the_stop(Trial<Kind>& trial) {
+  constexpr double kMostWay_m = 0.12;
+  auto& rig = trial.work();
+  const unsigned axis = moving_axis(trial);
+  auto& faults = Kind::axis(rig.plant, axis);
+  faults.spool_held_ratio = Kind::spools(rig.plant.plant())[axis];
+  if (trial.odd()) {
+    rig.plant.faults().set_silent(Kind::Dbc::ValveState::kId, true);
+  } else {
+    faults.echoes = true;
+    rig.ask(false, Task::kNone);
+  }
+  const bool neutral = rig.run_until(100 * kMillisecondUs, [&rig] { return !rig.enabled(); });
+  trial.check(neutral, "no neutral command");
+  const TimeUs stopped_us = rig.now_us;
+  const double from_m = Kind::strokes_m(rig.plant.plant())[axis];
+  const bool cut = rig.run_until(
+      10 * kSecondUs, [&rig, stopped_us] { return rig.record.any_pilot_cut(stopped_us); });
+  trial.outcome.to_detection_us = cut ? rig.now_us - stopped_us : -1;
+  rig.run(kSecondUs);
+  trial.outcome.harm = std::abs(Kind::strokes_m(rig.plant.plant())[axis] - from_m);
+  trial.outcome.harm_unit = "m stroke";
+  trial.check(trial.outcome.harm <= kMostWay_m,
+              "goes on by " + std::to_string(1e3 * trial.outcome.harm) + " mm of its stroke");
+  // One that the ground holds goes nowhere.
+  trial.check(cut || trial.outcome.harm <= 0.05, "no pilot cut asked for");
+  trial.saw("N");
+  faults.spool_held_ratio.reset();
+  faults.echoes = false;
+  rig.plant.faults().set_silent(Kind::Dbc::ValveState::kId, false);
+  trial.expect_arms_again();
+}
+
 /// For one frame, then for good.
 template <class Kind>
 void reading_jumps(Trial<Kind>& trial) {
@@ -127,7 +164,8 @@ Rows<Kind> machine_rows() {
   return {{33, "spool stuck open against its command", "N L | N", spool_stuck<Kind>},
           {34, "spool or cylinder moves uncommanded", "N L", moves_uncommanded<Kind>},
           {35, "stroke stuck while flow is commanded", "N L", stroke_stuck<Kind>},
-          {36, "stroke or pose jumps: one frame; for good", "D; N L", reading_jumps<Kind>}};
+          {36, "stroke or pose jumps: one frame; for good", "D; N L", reading_jumps<Kind>},
+          {80, "spool stays open after the stop, unseen", "N", goes_on_after_the_stop<Kind>}};
 }
 
 template Rows<Excavator> machine_rows();

@@ -37,8 +37,8 @@ Driving driving_of(const DozerModel& machine, const DozerValid& valid,
 Driving driven(const DozerModel& machine, const DozerValid& valid, const DozerEstimates& estimates,
                const DozerLastCycle& last, double lead_s) {
   return drive_on(machine.profile.body, estimates.ground, estimates.design,
-                  driving_of(machine, valid, estimates), {last.speed_mps, kTravelLead_s}, lead_s,
-                  estimates.foretelling.bias);
+                  driving_of(machine, valid, estimates), {last.commands.speed_mps, kTravelLead_s},
+                  lead_s, estimates.foretelling.bias);
 }
 
 BladeSituation situation_of(const DozerModel& machine, const DozerValid& valid,

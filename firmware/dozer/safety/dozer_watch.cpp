@@ -17,6 +17,28 @@ DisplacementTask displacement_task(bool returning, bool moving, const DozerValid
   return moving ? DisplacementTask::kFollow : DisplacementTask::kReturn;
 }
 
+FaultSet watch_tracks(const DozerValid& valid, bool asked, double wanted_mps, double period_s,
+                      std::array<TrackRestState, kTrackCount>& state, FaultSet& said) {
+  constexpr RestBounds kBounds = {kTrackRest_m, kTrackRest_s, kTrackCoast_s, 0.0};
+  FaultSet stops;
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    TrackRestState& track = state[i];
+    if (asked) {
+      track.way_m = 0.0;
+      ask_of(kBounds, wanted_mps, track.rest);
+    } else if (valid.faults.has(Fault::kTransmissionMissing)) {
+      track.rest.anchored = false;
+    } else {
+      track.way_m += period_s * valid.track_speed_mps[i];
+      const RestSeen seen = {track.way_m, false, valid.by_hand()};
+      if (watch_rest(kBounds, seen, period_s, track.rest) == RestVerdict::kMoves) {
+        (valid.by_hand() ? said : stops).add(Fault::kDisplacementRunaway);
+      }
+    }
+  }
+  return stops;
+}
+
 }  // namespace
 
 void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommands& last,
@@ -39,6 +61,11 @@ void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommand
                         curvature_at(profile.grade.heights, valid.position_m), period_s,
                         state.pose)) {
     stops.add(Fault::kPoseDisagrees);
+  }
+  FaultSet said;
+  stops.add(watch_tracks(valid, last.drives.active, last.speed_mps, period_s, state.track, said));
+  if (!said.empty()) {
+    warn(Fault::kDisplacementRunaway, valid);
   }
   stop(stops, valid);
   state.slowing =

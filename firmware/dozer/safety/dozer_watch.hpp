@@ -12,11 +12,18 @@
 
 namespace graben {
 
+/// A track that nobody asks to run.
+struct TrackRestState {
+  double way_m = 0.0;
+  RestState rest;
+};
+
 struct DozerWatchState {
   DriveWatchState<kBladeCount, 0> drives;  ///< Its inlets meter the flow.
   TransmissionWatchState transmission;
   PoseWatchState pose;
   SlowingState slowing;
+  std::array<TrackRestState, kTrackCount> track;
   bool returning = false;  ///< It was in motion, and some pump has not been near 0 since.
 };
 
@@ -24,12 +31,15 @@ struct DozerWatchState {
 struct DozerLastCommands {
   LastCommands<kBladeCount> drives;
   SentRatios ratios;
+  double speed_mps = 0.0;  ///< v_c; 0 out of motion.
 };
 
 /// Adds the watches' faults to `valid`; takes off the operator's speed (`safety.degraded_speed`)
 /// while anything is degraded, and for 0.5 s after. `state` goes on by a cycle. See watch_drives():
 /// the displacements are checked outside motion too, until they have been neutral once or the
 /// operator has taken over in manual mode; what stays stroked when the deadman is let go runs away.
+/// So does, in any mode but manual, a track that runs on though nothing is asked of it
+/// (watch_rest()), whatever its displacements say.
 void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommands& last,
            double period_s, DozerWatchState& state, DozerValid& valid);
 

@@ -67,13 +67,13 @@ void remember(const DozerModel& machine, const DozerValid& valid, const DozerEst
   watch_stall(machine, valid, phase, travel, active, period_s, last.stall);
   last.asked_mps = motion.asked_mps;
   last.fed = motion.fed;
-  last.speed_mps = active ? travel.speed.state.speed_mps : 0.0;
   last.commands = {
       {in_motion(decision.mode.mode),
        outputs.enable,
        {outputs.blade_duty_ratio, outputs.tilt_duty_ratio},
        {active ? motion.blade.velocity_mps : 0.0, active ? motion.tilt.velocity_mps : 0.0}},
-      {outputs.pump_ratio, outputs.motor_ratio}};
+      {outputs.pump_ratio, outputs.motor_ratio},
+      active ? travel.speed.state.speed_mps : 0.0};
   last.commands.drives.active = active;
 }
 

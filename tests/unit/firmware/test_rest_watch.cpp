@@ -26,7 +26,7 @@ struct Resting {
     seen.stroke_m = 0.7;
   }
   void ask(double mps) {
-    ask_of(row, mps, state);
+    ask_of(rest_bounds(row), mps, state);
     way_m = 0.0;
     time_s = 0.0;
   }
@@ -34,7 +34,7 @@ struct Resting {
     seen.stroke_m += mps * kCycle_s;
     way_m += std::abs(mps) * kCycle_s;
     time_s += kCycle_s;
-    verdict = watch_rest(row, seen, kCycle_s, state);
+    verdict = watch_rest(rest_bounds(row), seen, kCycle_s, state);
   }
   void move_for(double mps, double seconds) {
     repeat(static_cast<int>(std::lround(seconds / kCycle_s)), [&] { move(mps); });
@@ -99,8 +99,8 @@ TEST(what_settling_explains_is_no_motion, Resting drive) {
 
   Resting runs_on;
   runs_on.ask(0.4);
-  const double for_s = spool_starts_s(runs_on.row) + 2.0 * spool_lag_s(runs_on.row);
-  assert_true(runs_on.seen_after_m(0.4) < 0.05 + 1.3 * 0.4 * for_s + 0.01);
+  assert_true(runs_on.seen_after_m(0.4) <
+              0.05 + 1.3 * 0.4 * rest_bounds(runs_on.row).coast_s + 0.01);
 }
 
 TEST(a_swing_may_brake, Resting drive) {
