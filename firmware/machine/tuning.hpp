@@ -20,8 +20,8 @@ inline constexpr double kTimeBand = 1.3;
 /// Time after which a cylinder's oil has rung down once its spool has closed. [s; chosen: not
 /// tried]
 inline constexpr double kCylinderRest_s = 0.5;
-/// Way of a drive that nobody asks to move from which it is seen to. [m; chosen: asked for by the
-/// safety case; what oil gives way under a load is less]
+/// Way of a drive that nobody asks to move from which it is seen to. [m; chosen: more than oil
+/// gives way under a load; not tried]
 inline constexpr double kRestMoved_m = 0.05;
 /// Distance outside its cylinder's range at which a stroke may be measured. [m; chosen: a zero that
 /// nobody has found yet, and what an end gives way to a piston; 0.010 tried before]

@@ -104,8 +104,8 @@ inline constexpr double kTracksApartOnCurve = 0.2;
 
 /// Track speed below which a track stands. [m/s; chosen: above the noise of its sensor; not tried]
 inline constexpr double kTrackAtRest_mps = 0.05;
-/// Way of a track that nobody asks to run from which it is seen to. [m; chosen: asked for by the
-/// safety case]
+/// Way of a track that nobody asks to run from which it is seen to. [m; chosen: more
+/// than sheared ground springs back; not tried]
 inline constexpr double kTrackRest_m = 0.15;
 /// Time until tracks have come to rest after their last command. [s; measured: 0.75 s at most in
 /// `fault_cases --machine dozer --seeds 20`]
