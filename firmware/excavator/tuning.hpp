@@ -52,8 +52,8 @@ inline constexpr double kDampingWithoutPressures = 0.75;
 /// Step of the angle in one frame that noise and lost frames explain. [rad; chosen: 0.1 m at teeth
 /// 7 m away; not tried]
 inline constexpr double kSwingJumpMargin_rad = 0.015;
-/// Way of a platform that nobody asks to turn from which it is seen to. [rad; chosen: 2 degrees; not
-/// tried]
+/// Way of a platform that nobody asks to turn from which it is seen to. [rad; chosen: 2 degrees;
+/// not tried]
 inline constexpr double kSwingRest_rad = 0.035;
 /// Way of the platform against its open spool that is a wrong direction. [rad; chosen: 20 mm at
 /// teeth 7 m away; not tried]

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "tests/faults/row.hpp"
 
@@ -86,9 +87,14 @@ void enable_not_fresh(Trial<Kind>& trial) {
 }
 
 /// A stroke that moves with its spool closed is stopped while it has come no further than some
-/// centimetres; without the pressures that would tell sooner.
+/// centimetres; without the pressures that would tell sooner. Armed, or, every second seed of an
+/// excavator, Active with no lever moved.
 template <class Kind>
 void moves_with_its_spool_closed(Trial<Kind>& trial) {
+  const bool jogs = std::is_same_v<Kind, Excavator> && trial.odd();
+  if (jogs) {
+    trial.rig->driver.set_hands(plant::OperatorHands{});
+  }
   auto& rig = trial.arm();
   const unsigned axis = trial.any_of(Kind::kAxes);
   const bool has_pressures = axis < Kind::slowing().size();
@@ -98,6 +104,9 @@ void moves_with_its_spool_closed(Trial<Kind>& trial) {
     }
   };
   pressures(true);
+  if (jogs) {
+    rig.ask(true, Task::kJog);
+  }
   rig.run(200 * kMillisecondUs);
   plant::StrokeFault& stroke = Kind::axis(rig.plant, axis).stroke;
   const double drift_mps = 0.02 + 0.06 * trial.random.uniform();
