@@ -25,7 +25,7 @@ struct Machine {
   DozerValid seen;
 
   Machine() {
-    cycle.drives.moving = cycle.drives.enable = true;
+    cycle.drives.moving = cycle.drives.enable = cycle.drives.active = true;
     inputs.enable = inputs.automatic = inputs.valve_enabled = true;
     inputs.task = Task::kGrade;
     inputs.speed_override_ratio = 0.5;
@@ -76,6 +76,7 @@ struct Released : Machine {
     const DozerLastCommands nothing;
     cycle = nothing;
     inputs.valve_enabled = false;
+    run_at(0.0);
   }
 };
 

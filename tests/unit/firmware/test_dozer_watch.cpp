@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The dozer against its commands.
 
+#include "firmware/dozer/travel/tracks.hpp"
 #include "tests/unit/firmware/dozer_watch_machine.hpp"
 
 using namespace graben::test::of_dozer;
@@ -126,6 +127,7 @@ TEST(not_in_motion_the_machine_is_the_operators, Machine machine) {
   const DozerLastCommands nothing;
   machine.cycle = nothing;
   machine.inputs.valve_enabled = false;
+  machine.inputs.automatic = false;
   for (int n = 0; n < 100; ++n) {
     machine.inputs.drive[0].spool_ratio = 1.0;
     machine.inputs.drive[0].stroke_m = 0.005 * n;
@@ -135,6 +137,74 @@ TEST(not_in_motion_the_machine_is_the_operators, Machine machine) {
   }
   machine.inputs.valve_enabled = true;
   assert_int_equal(machine.cycles_until(Fault::kValveNotFollowing), kEchoCycles);
+}
+
+/// Nobody asks for it; its displacements say that they are at 0.
+struct RunsOn : Machine {
+  RunsOn() {
+    run(5);
+    const DozerLastCommands nothing;
+    cycle = nothing;
+    inputs.pump_ratio = {0.0, 0.0};
+    inputs.valve_enabled = false;
+    run_at(0.0);
+    run(30);
+  }
+};
+
+TEST(a_track_that_runs_on_runs_away, RunsOn machine) {
+  assert_well(machine.step());
+  machine.run_at(0.5);
+  assert_in_range(machine.cycles_until(Fault::kDisplacementRunaway), 5, 7);
+  assert_int_equal(machine.seen.fault, Fault::kDisplacementRunaway);
+  // It is at rest once it has stood for 1 s.
+  machine.run_at(0.0);
+  machine.run(20);
+  assert_well(machine.seen);
+}
+
+TEST(what_its_last_speed_explains_does_not_run_away, Machine machine) {
+  machine.cycle.speed_mps = 1.0;
+  machine.run(5);
+  const DozerLastCommands nothing;
+  machine.cycle = nothing;
+  machine.inputs.pump_ratio = {0.0, 0.0};
+  machine.inputs.valve_enabled = false;
+  machine.run_at(0.5);
+  machine.run(5);
+  machine.run_at(0.0);
+  machine.run(60);
+  assert_well(machine.seen);
+}
+
+TEST(a_track_that_is_not_seen_is_not_judged, RunsOn machine) {
+  machine.inputs.faults.add(Fault::kTransmissionMissing);
+  machine.run_at(0.5);
+  assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), -1);
+}
+
+TEST(by_hand_it_is_only_said, RunsOn machine) {
+  machine.inputs.automatic = false;
+  machine.run_at(0.5);
+  assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), -1);
+  assert_true(machine.seen.warned.has(Fault::kDisplacementRunaway));
+  assert_int_equal(machine.seen.fault, Fault::kNone);
+}
+
+/// Its own speed, or that of its displacements where it is not to be believed.
+TEST(a_track_is_believed_unless_it_disagrees, Machine machine) {
+  machine.run_at(0.25);
+  const HstProfile& hst = machine.profile.hst;
+  DozerValid& valid = machine.inputs;
+  const double by_displacements_mps =
+      track_speed_mps(hst, valid.engine_radps, valid.pump_ratio[kLeft], valid.motor_ratio[kLeft]);
+  assert_near(believed_track_mps(hst, valid, kLeft), 0.25, 0.0);
+  valid.track_outvoted[kLeft] = true;
+  assert_near(believed_track_mps(hst, valid, kLeft), by_displacements_mps, 1e-12);
+  assert_near(believed_track_mps(hst, valid, kRight), 0.25, 0.0);
+  valid.track_outvoted[kLeft] = false;
+  valid.degraded.add(Fault::kTrackSpeedDisagrees);
+  assert_near(believed_track_mps(hst, valid, kRight), by_displacements_mps, 1e-12);
 }
 
 TEST(a_spool_that_does_not_close_after_motion_is_stuck, Released machine) {

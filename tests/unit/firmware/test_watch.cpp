@@ -283,3 +283,77 @@ TEST(what_its_load_lets_go_is_not_the_wrong_way) {
     assert_int_equal(wrong, before_pa < 20e6);
   }
 }
+
+/// Nobody asks it to move: in no mode that moves, or Armed.
+struct AtRest : Machine {
+  AtRest() {
+    for (ValidDrive& drive : inputs.drive) {
+      drive.stroke_known = true;
+    }
+    run(5);
+    cycle.active = false;
+    run(20);
+  }
+  /// Of the boom. True: it was stopped.
+  bool move(double mps, int count) {
+    bool stopped = false;
+    for (int n = 0; n < count; ++n) {
+      inputs.drive[kBoom].stroke_m += mps * kPeriod_s;
+      stopped = step().faults.has(Fault::kUncommandedMotion) || stopped;
+    }
+    return stopped;
+  }
+};
+
+TEST(a_drive_that_moves_at_rest_stops, AtRest machine) {
+  assert_well(machine.seen);
+  machine.cycle.moving = false;
+  machine.move(0.1, 9);
+  assert_stopped_by(Fault::kUncommandedMotion, machine.seen);
+}
+
+TEST(armed_it_does_so_too, AtRest machine) {
+  machine.move(0.1, 9);
+  assert_stopped_by(Fault::kUncommandedMotion, machine.seen);
+}
+
+TEST(by_hand_it_is_said_alone, AtRest machine) {
+  machine.cycle.moving = false;
+  machine.inputs.automatic = false;
+  machine.move(0.1, 12);
+  assert_int_equal(machine.seen.fault, Fault::kNone);
+  assert_true(machine.seen.warned.has(Fault::kUncommandedMotion));
+}
+
+/// No faster than `safety.sink`, with its spool seen in its middle.
+TEST(sinking_is_said_alone, AtRest machine) {
+  machine.cycle.moving = false;
+  machine.profile.safety.sink_mps = 0.005;
+  machine.bank = excavator_bank(machine.profile);
+  AtRest unseen = machine;
+  AtRest open = machine;
+  assert_false(machine.move(-0.004, 220));
+  assert_true(machine.seen.warned.has(Fault::kUncommandedMotion));
+  unseen.inputs.faults.add(Fault::kSpoolMissing);
+  assert_true(unseen.move(-0.004, 220));
+  open.inputs.drive[kBoom].spool_ratio = 0.5;
+  assert_true(open.move(-0.004, 220));
+}
+
+TEST(where_it_stands_is_not_known_without_its_stroke, AtRest machine) {
+  machine.cycle.moving = false;
+  machine.inputs.drive[kBoom].stroke_known = false;
+  machine.move(0.1, 20);
+  machine.inputs.drive[kBoom].stroke_known = true;
+  machine.run(20);
+  assert_well(machine.seen);
+}
+
+/// For as long as duties that were tried may still be under way.
+TEST(what_was_tried_may_go_on, AtRest machine) {
+  machine.cycle.tried = true;
+  machine.step();
+  machine.cycle = {};
+  machine.move(0.1, 14);
+  assert_false(machine.seen.faults.has(Fault::kUncommandedMotion));
+}

@@ -34,6 +34,7 @@ struct Machine {
 
   Machine() {
     cycle.moving = true;
+    cycle.active = true;
     cycle.enable = true;
     inputs.enable = inputs.automatic = inputs.valve_enabled = true;
     inputs.task = Task::kDig;
