@@ -149,6 +149,27 @@ TEST(the_pilot_is_known_from_arming_or_a_cut) {
   }
 }
 
+/// In manual mode, with enable released; not while the operator's frames are missing.
+TEST(the_operator_has_it_by_hand) {
+  const auto cut = [](bool automatic, bool enable, const FaultSet& faults) {
+    CycleMemory memory;
+    memory.pilot.at_rest = true;
+    CommonValid valid;
+    valid.automatic = automatic;
+    valid.faults = faults;
+    ModeRequest request;
+    request.enable = enable;
+    MachineOutputs outputs;
+    MachineStatus status;
+    end_cycle({request, {EcuMode::kReady, Fault::kNone}, 0.01}, valid, memory, outputs, status);
+    return outputs.pilot_cut;
+  };
+  assert_false(cut(false, false, {}));
+  assert_true(cut(false, true, {}));
+  assert_true(cut(true, false, {}));
+  assert_true(cut(false, false, only(Fault::kOperatorMissing)));
+}
+
 /// What the operator reads at the end of a cycle.
 MachineStatus describe(const ModeState& mode, const ModeRequest& request,
                        const CommonValid& valid) {

@@ -336,6 +336,10 @@ TEST(sinking_is_said_alone, AtRest machine) {
   assert_true(machine.seen.warned.has(Fault::kUncommandedMotion));
   unseen.inputs.faults.add(Fault::kSpoolMissing);
   assert_true(unseen.move(-0.004, 220));
+  AtRest blind = machine;
+  blind.profile.bus.spool_feedback = false;
+  blind.bank = excavator_bank(blind.profile);
+  assert_true(blind.move(-0.004, 220));
   open.inputs.drive[kBoom].spool_ratio = 0.5;
   assert_true(open.move(-0.004, 220));
 }
