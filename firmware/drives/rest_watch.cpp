@@ -20,7 +20,7 @@ void begin(double stroke_m, RestState& state) {
 
 /// What it went on by, as far as its last command explains it.
 void settle(const RestBounds& bounds, double stroke_m, RestState& state) {
-  if (state.coast_m > 0.0 && state.stopped_s >= bounds.rest_s) {
+  if (state.stopped_s >= bounds.rest_s) {
     state.anchor_m += std::clamp(stroke_m - state.anchor_m, -state.coast_m, state.coast_m);
     state.coast_m = 0.0;
   }
@@ -61,7 +61,7 @@ RestVerdict watch_rest(const RestBounds& bounds, const RestSeen& seen, double el
   if (!state.anchored) {
     begin(stroke_m, state);
   }
-  state.stopped_s = std::min(state.stopped_s + elapsed_s, bounds.rest_s);
+  state.stopped_s += elapsed_s;
   settle(bounds, stroke_m, state);
   follow_stillness(stroke_m, elapsed_s, state);
   if (state.still_s >= kRestStands_s && (state.moves || seen.by_hand)) {

@@ -4,6 +4,7 @@
 #include "firmware/safety/cycle.hpp"
 
 #include "firmware/safety/fault_table.hpp"
+#include "firmware/safety/tuning.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 constexpr EcuMode kModes[] = {EcuMode::kSilent, EcuMode::kReady,    EcuMode::kArmed,
@@ -117,6 +118,8 @@ PilotState after(double seconds, Fault latched, const FaultSet& faults, PilotSta
 TEST(a_stopped_machine_loses_its_pilot) {
   assert_false(after(0.9, Fault::kBusOff, {}).at_rest);
   assert_true(after(1.1, Fault::kBusOff, {}).at_rest);
+  const ModeState stopped = {EcuMode::kFault, Fault::kBusOff};
+  assert_false(pilot({}, stopped, {}, false, kDrivesStop_s).state.at_rest);
   assert_true(after(0.01, Fault::kSpoolMissing, only(Fault::kSpoolMissing)).at_rest);
   for (const EcuMode mode : {EcuMode::kSilent, EcuMode::kReady, EcuMode::kFault}) {
     const FaultSet moves = only(Fault::kUncommandedMotion);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "firmware/drives/tuning.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 constexpr double kCycle_s = 0.01;
@@ -150,4 +151,44 @@ TEST(a_value_that_is_wrong_for_some_frames_is_no_motion, Resting drive) {
   drive.seen.stroke_m -= 0.2;
   drive.move_for(0.0, 1.0);
   assert_int_equal(drive.verdict, RestVerdict::kRests);
+}
+
+/// Each bound to the last bit: what is no more than it is still allowed.
+TEST(bounds_are_what_they_say) {
+  RestBounds bounds;
+  bounds.rest_m = 0.0625;
+  bounds.rest_s = 0.5;
+  RestState state;
+  state.anchored = true;
+  state.moves = true;
+  const auto at = [&](double stroke_m, double elapsed_s) {
+    return watch_rest(bounds, {stroke_m, false, false}, elapsed_s, state);
+  };
+  // Noise neither begins stillness newly nor is away.
+  at(kRestStill_m, 0.25);
+  assert_near(state.still_s, 0.25, 0.0);
+  assert_near(state.off_s, 0.0, 0.0);
+  state.still_s = kRestStands_s - 0.25;
+  assert_int_equal(at(kRestStill_m, 0.25), RestVerdict::kRests);
+
+  state = {};
+  state.anchored = true;
+  state.off_s = 9.0;
+  assert_int_equal(at(0.0625, 0.25), RestVerdict::kRests);
+  state.off_s = 0.0;
+  assert_int_equal(at(0.125, kRestMoves_s), RestVerdict::kMoves);
+
+  state = {};
+  state.anchored = true;
+  state.stopped_s = 0.25;
+  state.coast_m = 0.125;
+  at(0.25, 0.25);
+  assert_near(state.anchor_m, 0.125, 0.0);
+
+  state = {};
+  state.anchored = true;
+  state.sunk_m = 0.0625;
+  assert_int_equal(at(0.0, 0.25), RestVerdict::kRests);
+  state.sunk_m = -0.125;
+  assert_int_equal(at(0.0, 0.25), RestVerdict::kSinks);
 }
