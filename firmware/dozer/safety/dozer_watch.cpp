@@ -29,7 +29,11 @@ FaultSet watch_tracks(const DozerValid& valid, bool asked, double wanted_mps, do
     } else if (valid.faults.has(Fault::kTransmissionMissing)) {
       track.rest.anchored = false;
     } else {
-      track.way_m += period_s * valid.track_speed_mps[i];
+      // A track whose sensor is wrong runs nowhere: the body goes along with one that does.
+      const double track_mps = valid.track_speed_mps[i];
+      const bool body = !valid.faults.has(Fault::kPoseMissing) &&
+                        std::abs(valid.velocity_mps) < std::abs(track_mps);
+      track.way_m += period_s * (body ? valid.velocity_mps : track_mps);
       const RestSeen seen = {track.way_m, false, valid.by_hand()};
       if (watch_rest(kBounds, seen, period_s, track.rest) == RestVerdict::kMoves) {
         (valid.by_hand() ? said : stops).add(Fault::kDisplacementRunaway);

@@ -183,6 +183,13 @@ TEST(a_track_that_is_not_seen_is_not_judged, RunsOn machine) {
   assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), -1);
 }
 
+TEST(a_track_whose_body_stands_runs_nowhere, RunsOn machine) {
+  machine.inputs.track_speed_mps = {0.5, 0.5};
+  assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), -1);
+  machine.inputs.faults.add(Fault::kPoseMissing);
+  assert_true(machine.cycles_until(Fault::kDisplacementRunaway) > 0);
+}
+
 TEST(by_hand_it_is_only_said, RunsOn machine) {
   machine.inputs.automatic = false;
   machine.run_at(0.5);

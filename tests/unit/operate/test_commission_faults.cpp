@@ -84,7 +84,8 @@ void try_row(const Row& row, const machines::SimulatedExcavator& machine, int ax
   CommissionBench bench(machine, options);
   if (row.from_the_start) {
     row.turn(bench, static_cast<unsigned>(axis), true);
-    bench.run(0.5);
+    // A stroke that jumps at rest has moved: until it has stood for a second nothing arms.
+    bench.run(2.0);
   }
   bench.begin_watch();
   bench.hands.deadman = true;
