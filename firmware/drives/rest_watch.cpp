@@ -26,8 +26,12 @@ void settle(const RestBounds& bounds, double stroke_m, RestState& state) {
   }
 }
 
-void follow_stillness(double stroke_m, double elapsed_s, RestState& state) {
-  if (std::abs(stroke_m - state.still_m) > kRestStill_m) {
+/// Way within which it stands still: of a platform less than it may go.
+double still_m(const RestBounds& bounds) { return std::min(kRestStill_m, 0.5 * bounds.rest_m); }
+
+void follow_stillness(const RestBounds& bounds, double stroke_m, double elapsed_s,
+                      RestState& state) {
+  if (std::abs(stroke_m - state.still_m) > still_m(bounds)) {
     state.still_m = stroke_m;
     state.still_s = 0.0;
   } else {
@@ -51,7 +55,8 @@ RestBounds rest_bounds(const DriveRow& drive) {
 }
 
 void ask_of(const RestBounds& bounds, double asked_mps, RestState& state) {
-  state.coast_m = kRestCoast * std::abs(asked_mps) * bounds.coast_s;
+  state.coast_m =
+      std::max(kRestCoast * std::abs(asked_mps) * bounds.coast_s, kRestCoastKept * state.coast_m);
   state.anchored = false;
 }
 
@@ -63,7 +68,7 @@ RestVerdict watch_rest(const RestBounds& bounds, const RestSeen& seen, double el
   }
   state.stopped_s += elapsed_s;
   settle(bounds, stroke_m, state);
-  follow_stillness(stroke_m, elapsed_s, state);
+  follow_stillness(bounds, stroke_m, elapsed_s, state);
   if (state.still_s >= kRestStands_s && (state.moves || seen.by_hand)) {
     begin(stroke_m, state);
   }
@@ -71,7 +76,7 @@ RestVerdict watch_rest(const RestBounds& bounds, const RestSeen& seen, double el
     sink(bounds, stroke_m, elapsed_s, state);
   }
   const double off_m = std::abs(stroke_m - state.anchor_m);
-  state.off_s = off_m > kRestStill_m ? state.off_s + elapsed_s : 0.0;
+  state.off_s = off_m > still_m(bounds) ? state.off_s + elapsed_s : 0.0;
   state.moves =
       state.moves || (off_m > bounds.rest_m + state.coast_m && state.off_s >= kRestMoves_s);
   if (state.moves) {

@@ -355,6 +355,9 @@ inline constexpr double kRestMoves_s = 0.3;
 /// Factor on the way that a stopping drive's last command explains. [-; chosen: a drive may be as
 /// much faster than it was asked to be; not tried]
 inline constexpr double kRestCoast = 1.3;
+/// Share of that way that still counts a cycle after a drive was asked for less. [-; chosen: some
+/// is under way for half a second; 0 tried, with which one let go while it stops may be seen]
+inline constexpr double kRestCoastKept = 0.98;
 
 // Spool watch (spool_watch.cpp)
 

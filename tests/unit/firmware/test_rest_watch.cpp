@@ -104,6 +104,24 @@ TEST(what_settling_explains_is_no_motion, Resting drive) {
               0.05 + 1.3 * 0.4 * rest_bounds(runs_on.row).coast_s + 0.01);
 }
 
+/// What was asked before the last command is under way too, for some time.
+TEST(less_was_asked_as_it_stops, Resting drive) {
+  drive.ask(0.4);
+  const double explained_m = drive.state.coast_m;
+  drive.ask(0.0);
+  assert_near(drive.state.coast_m, 0.98 * explained_m, 1e-12);
+  repeat(300, [&] { drive.ask(0.0); });
+  assert_near(drive.state.coast_m, 0.0, 1e-3);
+}
+
+/// A platform's bound may be less than the noise of a long cylinder.
+TEST(a_small_bound_is_kept, Resting drive) {
+  drive.row.watch.rest_m = 0.005;
+  drive.ask(0.0);
+  drive.move(0.0);
+  assert_near(drive.seen_after_m(0.01), 0.006, 0.002);
+}
+
 TEST(a_swing_may_brake, Resting drive) {
   drive.row.watch.brakes_s = 1.0;
   drive.row.watch.rest_s = 2.5;
