@@ -88,7 +88,7 @@ ModeDecision decide_mode(const CycleMemory& memory, const Cycle& cycle, const Co
                                valid.task != Task::kNone,
                                centred,
                                stop_requested};
-  return {request, next_mode(memory.mode, request), cycle.elapsed_s};
+  return {request, next_mode(memory.mode, request), cycle.period_s};
 }
 
 void take_refusal(Fault refused, ModeDecision& decision) {

@@ -83,7 +83,7 @@ struct Cycle {
 struct ModeDecision {
   ModeRequest request;
   ModeState mode;
-  double period_s = 0.0;  ///< Since the last cycle.
+  double period_s = 0.0;  ///< Of the cycle.
 
   [[nodiscard]] bool active() const { return mode.mode == EcuMode::kActive; }
 };
