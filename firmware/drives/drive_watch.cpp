@@ -38,15 +38,15 @@ FaultSet watch_rests(DriveRows drives, const DriveCommands& last, Span<const Val
     const DriveWatch& watch = drives[i].watch;
     const RestBounds bounds = rest_bounds(drives[i]);
     RestState& rest = state.rest[i];
+    const bool spool_known = watch.senses_spool && !valid.faults.has(Fault::kSpoolMissing);
+    const bool centred = spool_known && std::abs(seen[i].spool_ratio) <= watch.spool_tolerance;
     if (last.active || state.tried_s > 0.0) {
       ask_of(bounds, last.ask.asked_mps[i], rest);
-    } else if (!seen[i].stroke_known) {
-      rest.anchored = false;
+    } else if (valid.by_hand() && spool_known && !centred) {
+      ask_of(bounds, bounds.fastest_mps, rest);  // By his levers.
     } else {
-      const bool centred = watch.senses_spool && !valid.faults.has(Fault::kSpoolMissing) &&
-                           std::abs(seen[i].spool_ratio) <= watch.spool_tolerance;
-      const RestVerdict verdict =
-          watch_rest(bounds, {seen[i].stroke_m, centred, valid.by_hand()}, period_s, rest);
+      const RestSeen now = {seen[i].stroke_m, centred, valid.by_hand(), seen[i].stroke_known};
+      const RestVerdict verdict = watch_rest(bounds, now, period_s, rest);
       if (verdict == RestVerdict::kMoves && !valid.by_hand()) {
         stops.add(Fault::kUncommandedMotion);
       } else if (verdict != RestVerdict::kRests) {

@@ -105,7 +105,8 @@ struct DriveWatchView {
 /// goes on by a cycle. A spool that is not measured counts as where it was sent.
 ///
 /// While nothing is asked of the drives, in any mode, watch_rest() looks at them: one that moves is
-/// kUncommandedMotion; in manual mode, and one that sinks, it is only said.
+/// kUncommandedMotion; in manual mode, and one that sinks, it is only said. In manual mode a spool
+/// that is seen open was opened by the operator's levers, and is no motion that nobody asked for.
 ///
 /// Outside motion the machine may be moved by hand in manual mode: spools, pressures and what
 /// drives do with them are then not checked, and these watches begin newly. Only spools are, until

@@ -10,12 +10,24 @@ namespace graben {
 namespace {
 
 void begin(double stroke_m, RestState& state) {
-  const double coast_m = state.coast_m;
+  const RestState last = state;
   state = {};
   state.anchor_m = stroke_m;
+  state.calm_m = stroke_m;
   state.still_m = stroke_m;
-  state.coast_m = coast_m;
+  state.coast_m = last.coast_m;
+  state.by_hand = last.by_hand;
+  state.asked = true;
   state.anchored = true;
+}
+
+/// What he asked for as he gave it back is not known, and what was seen before was his.
+void follow_hand(bool by_hand, RestState& state) {
+  if (state.by_hand && !by_hand) {
+    state.asked = false;
+    state.anchored = false;
+  }
+  state.by_hand = by_hand;
 }
 
 /// What it went on by, as far as its last command explains it.
@@ -26,13 +38,14 @@ void settle(const RestBounds& bounds, double stroke_m, RestState& state) {
   }
 }
 
-/// Way within which it stands still: of a platform less than it may go.
-double still_m(const RestBounds& bounds) { return std::min(kRestStill_m, 0.5 * bounds.rest_m); }
+/// Way within which it is where it was: of a platform less than it may go.
+double near_m(const RestBounds& bounds) { return std::min(kRestNear_m, 0.5 * bounds.rest_m); }
 
 void follow_stillness(const RestBounds& bounds, double stroke_m, double elapsed_s,
                       RestState& state) {
-  if (std::abs(stroke_m - state.still_m) > still_m(bounds)) {
-    state.still_m = stroke_m;
+  state.calm_m += (stroke_m - state.calm_m) * std::min(1.0, elapsed_s / kRestCalm_s);
+  if (std::abs(state.calm_m - state.still_m) > kRestStill * near_m(bounds)) {
+    state.still_m = state.calm_m;
     state.still_s = 0.0;
   } else {
     state.still_s += elapsed_s;
@@ -47,22 +60,38 @@ void sink(const RestBounds& bounds, double stroke_m, double elapsed_s, RestState
   state.sunk_m += step_m;
 }
 
+RestVerdict verdict(const RestBounds& bounds, const RestState& state) {
+  if (state.moves) {
+    return RestVerdict::kMoves;
+  }
+  return std::abs(state.sunk_m) > bounds.rest_m ? RestVerdict::kSinks : RestVerdict::kRests;
+}
+
 }  // namespace
 
 RestBounds rest_bounds(const DriveRow& drive) {
   const double coast_s = spool_starts_s(drive) + 2.0 * spool_lag_s(drive) + drive.watch.brakes_s;
-  return {drive.watch.rest_m, drive.watch.rest_s, coast_s, drive.watch.sink_mps};
+  return {drive.watch.rest_m, drive.watch.rest_s, coast_s, drive.watch.fastest_mps,
+          drive.watch.sink_mps};
 }
 
 void ask_of(const RestBounds& bounds, double asked_mps, RestState& state) {
-  state.coast_m =
-      std::max(kRestCoast * std::abs(asked_mps) * bounds.coast_s, kRestCoastKept * state.coast_m);
+  const double fast_mps = std::isfinite(asked_mps) ? std::abs(asked_mps) : 0.0;
+  state.coast_m = std::max(kRestCoast * fast_mps * bounds.coast_s, kRestCoastKept * state.coast_m);
+  state.asked = true;
   state.anchored = false;
 }
 
 RestVerdict watch_rest(const RestBounds& bounds, const RestSeen& seen, double elapsed_s,
                        RestState& state) {
+  if (!seen.known) {
+    return verdict(bounds, state);
+  }
   const double stroke_m = seen.stroke_m;
+  follow_hand(seen.by_hand, state);
+  if (!state.asked) {
+    ask_of(bounds, bounds.fastest_mps, state);
+  }
   if (!state.anchored) {
     begin(stroke_m, state);
   }
@@ -76,13 +105,13 @@ RestVerdict watch_rest(const RestBounds& bounds, const RestSeen& seen, double el
     sink(bounds, stroke_m, elapsed_s, state);
   }
   const double off_m = std::abs(stroke_m - state.anchor_m);
-  state.off_s = off_m > still_m(bounds) ? state.off_s + elapsed_s : 0.0;
-  state.moves =
-      state.moves || (off_m > bounds.rest_m + state.coast_m && state.off_s >= kRestMoves_s);
-  if (state.moves) {
-    return RestVerdict::kMoves;
+  state.off_s = off_m > near_m(bounds) ? state.off_s + elapsed_s : 0.0;
+  const bool moves = off_m > bounds.rest_m + state.coast_m && state.off_s >= kRestMoves_s;
+  if (moves && !state.moves) {
+    state.still_s = 0.0;
   }
-  return std::abs(state.sunk_m) > bounds.rest_m ? RestVerdict::kSinks : RestVerdict::kRests;
+  state.moves = state.moves || moves;
+  return verdict(bounds, state);
 }
 
 }  // namespace graben

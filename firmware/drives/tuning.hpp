@@ -345,9 +345,14 @@ inline constexpr double kParkingWithin = 0.7;
 
 /// Way within which a drive stands still. [m; chosen: noise of strokes as bad as the fault cases
 /// draw them; tried 0.002, where none came to rest]
-inline constexpr double kRestStill_m = 0.01;
+inline constexpr double kRestNear_m = 0.01;
+/// Share of that which its low-passed stroke may change while it stands. [-; chosen: 3 mm in
+/// kRestStands_s is what creeps; 1 tried, with which the fault of a drive at 3 mm/s came and went]
+inline constexpr double kRestStill = 0.3;
+/// Time constant of that low-pass. [s; chosen: noise of 20 frames; not tried]
+inline constexpr double kRestCalm_s = 0.2;
 /// Time for which a drive that was seen to move has to stand before its place counts as its rest.
-/// [s; chosen: not tried]
+/// [s; chosen: 5 tried, with which nobody could arm for so long after a sensor's jump]
 inline constexpr double kRestStands_s = 1.0;
 /// Least time for which a drive is away from its rest before it is seen to move. [s; chosen: a
 /// value that is wrong for some frames is no motion; not tried]

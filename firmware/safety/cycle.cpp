@@ -46,7 +46,7 @@ TimeWatchResult watch_time(const TimeState& last, TimeUs now_us) {
 }
 
 PilotResult pilot(const PilotState& last, const ModeState& mode, const FaultSet& faults,
-                  bool by_hand, double period_s) {
+                  bool by_hand, double elapsed_s) {
   // Outside motion a spool is stuck only where it should have closed after it. Whatever stopped the
   // machine first must not hide it.
   const bool stopped = mode.mode == EcuMode::kFault;
@@ -58,7 +58,7 @@ PilotResult pilot(const PilotState& last, const ModeState& mode, const FaultSet&
                          (stopped && (cuts_pilot(mode.fault) || cuts_pilot(in_motion_too)));
   PilotResult result;
   result.state.kept_cut = !in_motion(mode.mode) && (last.kept_cut || disobeyed);
-  result.state.fault_s = stopped ? std::min(last.fault_s + period_s, 2.0 * kDrivesStop_s) : 0.0;
+  result.state.fault_s = stopped ? std::min(last.fault_s + elapsed_s, 2.0 * kDrivesStop_s) : 0.0;
   const bool moves = !in_motion(mode.mode) && faults.has(Fault::kUncommandedMotion);
   const bool unknown = stopped && faults.has(Fault::kSpoolMissing);
   const bool asked = moves || unknown || result.state.fault_s > kDrivesStop_s;
@@ -88,7 +88,7 @@ ModeDecision decide_mode(const CycleMemory& memory, const Cycle& cycle, const Co
                                valid.task != Task::kNone,
                                centred,
                                stop_requested};
-  return {request, next_mode(memory.mode, request), cycle.period_s};
+  return {request, next_mode(memory.mode, request), cycle.elapsed_s};
 }
 
 void take_refusal(Fault refused, ModeDecision& decision) {
@@ -102,7 +102,7 @@ void end_cycle(const ModeDecision& decision, const CommonValid& valid, CycleMemo
   const ModeState& mode = decision.mode;
   const PilotResult pressure =
       pilot(memory.pilot, mode, valid.faults, valid.by_hand() && !decision.request.enable,
-            decision.period_s);
+            decision.elapsed_s);
   outputs.pilot_cut = pressure.cut;
   outputs.pilot_known = pressure.state.known;
   status.mode = mode.mode;

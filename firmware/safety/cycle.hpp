@@ -57,7 +57,7 @@ struct PilotResult {
 /// after any fault that stopped it. Such a cut strands no machine: it ends as well when the
 /// operator has it `by_hand`, in manual mode with enable released.
 [[nodiscard]] PilotResult pilot(const PilotState& last, const ModeState& mode,
-                                const FaultSet& faults, bool by_hand, double period_s);
+                                const FaultSet& faults, bool by_hand, double elapsed_s);
 
 /// State from cycle to cycle, whatever the machine.
 struct CycleMemory {
@@ -83,7 +83,7 @@ struct Cycle {
 struct ModeDecision {
   ModeRequest request;
   ModeState mode;
-  double period_s = 0.0;  ///< Of the cycle.
+  double elapsed_s = 0.0;  ///< Since the last cycle.
 
   [[nodiscard]] bool active() const { return mode.mode == EcuMode::kActive; }
 };

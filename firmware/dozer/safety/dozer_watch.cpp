@@ -17,25 +17,33 @@ DisplacementTask displacement_task(bool returning, bool moving, const DozerValid
   return moving ? DisplacementTask::kFollow : DisplacementTask::kReturn;
 }
 
-FaultSet watch_tracks(const DozerValid& valid, bool asked, double wanted_mps, double period_s,
-                      std::array<TrackRestState, kTrackCount>& state, FaultSet& said) {
-  constexpr RestBounds kBounds = {kTrackRest_m, kTrackRest_s, kTrackCoast_s, 0.0};
+/// How fast a track runs, by itself and by the body. A track whose sensor is wrong runs nowhere:
+/// the body goes along with one that does. Where only one of them is known, that; and what may be
+/// the zero of its sensor is none.
+double runs_mps(const DozerValid& valid, unsigned track) {
+  const bool track_known = !valid.faults.has(Fault::kTransmissionMissing);
+  const bool body_known = !valid.faults.has(Fault::kPoseMissing);
+  const double track_mps = track_known ? valid.track_speed_mps[track] : valid.velocity_mps;
+  const double body_mps = body_known ? valid.velocity_mps : track_mps;
+  const double least_mps = std::abs(body_mps) < std::abs(track_mps) ? body_mps : track_mps;
+  return (track_known || body_known) && std::abs(least_mps) > kTrackZero_mps ? least_mps : 0.0;
+}
+
+FaultSet watch_tracks(const HstProfile& hst, const DozerValid& valid, bool asked, double wanted_mps,
+                      double period_s, std::array<TrackRestState, kTrackCount>& state,
+                      FaultSet& said) {
+  const RestBounds bounds = {kTrackRest_m, kTrackRest_s, kTrackCoast_s,
+                             track_speed_max_mps(hst, valid.engine_radps), 0.0};
   FaultSet stops;
   for (unsigned i = 0; i < kTrackCount; ++i) {
     TrackRestState& track = state[i];
     if (asked) {
       track.way_m = 0.0;
-      ask_of(kBounds, wanted_mps, track.rest);
-    } else if (valid.faults.has(Fault::kTransmissionMissing)) {
-      track.rest.anchored = false;
+      ask_of(bounds, wanted_mps, track.rest);
     } else {
-      // A track whose sensor is wrong runs nowhere: the body goes along with one that does.
-      const double track_mps = valid.track_speed_mps[i];
-      const bool body = !valid.faults.has(Fault::kPoseMissing) &&
-                        std::abs(valid.velocity_mps) < std::abs(track_mps);
-      track.way_m += period_s * (body ? valid.velocity_mps : track_mps);
+      track.way_m += period_s * runs_mps(valid, i);
       const RestSeen seen = {track.way_m, false, valid.by_hand()};
-      if (watch_rest(kBounds, seen, period_s, track.rest) == RestVerdict::kMoves) {
+      if (watch_rest(bounds, seen, period_s, track.rest) == RestVerdict::kMoves) {
         (valid.by_hand() ? said : stops).add(Fault::kDisplacementRunaway);
       }
     }
@@ -67,7 +75,8 @@ void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommand
     stops.add(Fault::kPoseDisagrees);
   }
   FaultSet said;
-  stops.add(watch_tracks(valid, last.drives.active, last.speed_mps, period_s, state.track, said));
+  stops.add(watch_tracks(profile.hst, valid, last.drives.active, last.speed_mps, period_s,
+                         state.track, said));
   if (!said.empty()) {
     warn(Fault::kDisplacementRunaway, valid);
   }
@@ -90,8 +99,9 @@ double believed_track_mps(const HstProfile& hst, const DozerValid& valid, unsign
 
 BrakeState brake(const BrakeState& last, const ModeState& mode, const DozerValid& valid,
                  double period_s) {
-  const bool runs_away =
-      valid.faults.has(Fault::kDisplacementRunaway) || mode.fault == Fault::kDisplacementRunaway;
+  const bool his = valid.by_hand() && !valid.enable;
+  const bool runs_away = !his && (valid.faults.has(Fault::kDisplacementRunaway) ||
+                                  mode.fault == Fault::kDisplacementRunaway);
   if (in_motion(mode.mode)) {
     return {runs_away, 0.0};
   }

@@ -39,7 +39,7 @@ struct DozerLastCommands {
 /// the displacements are checked outside motion too, until they have been neutral once or the
 /// operator has taken over in manual mode; what stays stroked when the deadman is let go runs away.
 /// So does, in any mode but manual, a track that runs on though nothing is asked of it
-/// (watch_rest()), whatever its displacements say.
+/// (watch_rest()), whatever its displacements say, by its own speed or the body's.
 void watch(const DozerProfile& profile, DriveRows drives, const DozerLastCommands& last,
            double period_s, DozerWatchState& state, DozerValid& valid);
 
@@ -59,8 +59,9 @@ struct BrakeState {
 
 /// Wanted at once while a displacement runs away or has stopped the machine by that. In motion not.
 /// Otherwise from when both tracks have come to rest, and then until the next motion: a machine
-/// that is dragged downhill keeps its brake. In manual mode only while the tracks are at rest: the
-/// machine is its operator's. `mode` is this cycle's.
+/// that is dragged downhill keeps its brake. In manual mode only while the tracks are at rest, and
+/// with enable released whatever ran away before: the machine is its operator's. `mode` is this
+/// cycle's.
 [[nodiscard]] BrakeState brake(const BrakeState& last, const ModeState& mode,
                                const DozerValid& valid, double period_s);
 

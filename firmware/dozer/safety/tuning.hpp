@@ -107,6 +107,9 @@ inline constexpr double kTrackAtRest_mps = 0.05;
 /// Way of a track that nobody asks to run from which it is seen to. [m; chosen: more
 /// than sheared ground springs back; not tried]
 inline constexpr double kTrackRest_m = 0.15;
+/// Speed up to which a track that nobody asks to run may be the zero of its sensor. [m/s; chosen: a
+/// few times what the plant draws; 0 tried, with which one of 5 mm/s was a runaway each 30 s]
+inline constexpr double kTrackZero_mps = 0.02;
 /// Time until tracks have come to rest after their last command. [s; measured: 0.75 s at most in
 /// `fault_cases --machine dozer --seeds 20`]
 inline constexpr double kTrackRest_s = 1.2;

@@ -69,6 +69,12 @@ TEST(a_runaway_is_braked_at_once) {
   for (const EcuMode mode : {EcuMode::kSilent, EcuMode::kReady, EcuMode::kActive}) {
     assert_true(wanted(kReleased, mode, valid));
   }
+  // Once the operator has it in hand it is his; not while he holds enable.
+  valid.automatic = false;
+  valid.enable = true;
+  assert_true(wanted(kReleased, EcuMode::kFault, valid));
+  valid.enable = false;
+  assert_false(wanted({true, 0.0}, EcuMode::kFault, valid));
 }
 
 /// Without the tracks' speeds it comes a second after the motion; in motion that time is not

@@ -159,7 +159,7 @@ TEST(a_track_that_runs_on_runs_away, RunsOn machine) {
   assert_int_equal(machine.seen.fault, Fault::kDisplacementRunaway);
   // It is at rest once it has stood for 1 s.
   machine.run_at(0.0);
-  machine.run(20);
+  machine.run(30);
   assert_well(machine.seen);
 }
 
@@ -177,10 +177,22 @@ TEST(what_its_last_speed_explains_does_not_run_away, Machine machine) {
   assert_well(machine.seen);
 }
 
-TEST(a_track_that_is_not_seen_is_not_judged, RunsOn machine) {
+/// By its body it is seen, by either where one is not known.
+TEST(a_track_that_is_not_seen_is_judged_by_the_body, RunsOn machine) {
   machine.inputs.faults.add(Fault::kTransmissionMissing);
-  machine.run_at(0.5);
-  assert_int_equal(machine.cycles_until(Fault::kDisplacementRunaway), -1);
+  machine.inputs.velocity_mps = 0.5;
+  RunsOn blind = machine;
+  assert_true(machine.cycles_until(Fault::kDisplacementRunaway) > 0);
+  blind.inputs.faults.add(Fault::kPoseMissing);
+  blind.run_at(0.5);
+  assert_int_equal(blind.cycles_until(Fault::kDisplacementRunaway), -1);
+}
+
+/// Both sensors' zeros off the same way.
+TEST(a_zero_that_is_off_is_no_motion, RunsOn machine) {
+  machine.run_at(0.0625 * 0.25);
+  machine.run(1000);
+  assert_well(machine.seen);
 }
 
 TEST(a_track_whose_body_stands_runs_nowhere, RunsOn machine) {

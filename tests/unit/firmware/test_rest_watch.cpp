@@ -130,15 +130,59 @@ TEST(a_swing_may_brake, Resting drive) {
   assert_int_equal(drive.verdict, RestVerdict::kRests);
 }
 
+/// Nor of its fastest, where nobody knows what it was asked for.
+TEST(at_the_start_its_fastest_is_explained, Resting drive) {
+  drive.row.watch.fastest_mps = 0.4;
+  Resting runs_on = drive;
+  drive.move_for(0.4, 0.1);
+  drive.move_for(0.0, 5.0);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+  assert_near(runs_on.seen_after_m(0.4), 0.05 + 1.3 * 0.4 * rest_bounds(drive.row).coast_s, 0.01);
+}
+
+/// What is asked may be anything that a division gave.
+TEST(what_is_not_finite_explains_nothing, Resting drive) {
+  drive.ask(std::nan(""));
+  drive.move(0.0);
+  assert_near(drive.seen_after_m(0.1), 0.05, 0.004);
+}
+
 /// It is at rest again once it has stood for 1 s.
 TEST(what_was_seen_to_move_has_to_stand, Resting drive) {
   drive.seen_after_m(0.1);
   drive.move_for(0.0, 0.9);
   assert_int_equal(drive.verdict, RestVerdict::kMoves);
-  drive.move_for(0.0, 0.2);
+  drive.move_for(0.0, 0.6);
   assert_int_equal(drive.verdict, RestVerdict::kRests);
   drive.way_m = 0.0;
   assert_near(drive.seen_after_m(0.1), 0.05, 0.004);
+}
+
+/// Its fault neither comes nor goes.
+TEST(what_creeps_on_does_not_stand, Resting drive) {
+  drive.ask(0.0);
+  drive.seen_after_m(0.004);
+  for (int n = 0; n < 6000; ++n) {
+    drive.move(0.004);
+    assert_int_equal(drive.verdict, RestVerdict::kMoves);
+  }
+}
+
+/// It goes on for as long as its levers explain.
+TEST(what_the_operator_gives_back_may_settle, Resting drive) {
+  drive.row.watch.fastest_mps = 0.4;
+  drive.seen.by_hand = true;
+  drive.move_for(0.2, 2.0);
+  assert_int_equal(drive.verdict, RestVerdict::kMoves);
+  drive.seen.by_hand = false;
+  Resting runs_on = drive;
+  drive.move_for(0.2, 0.1);
+  drive.move_for(0.0, 5.0);
+  assert_int_equal(drive.verdict, RestVerdict::kRests);
+  runs_on.move_for(0.2, 0.1);
+  assert_int_equal(runs_on.verdict, RestVerdict::kRests);
+  runs_on.way_m = 0.0;
+  assert_true(runs_on.seen_after_m(0.2) < 0.16);
 }
 
 /// In the operator's hands each place where it stood is one.
@@ -146,7 +190,7 @@ TEST(by_hand_it_begins_where_it_was_left, Resting drive) {
   const auto twice = [&] {
     repeat(2, [&] {
       drive.move_for(0.1, 0.4);
-      drive.move_for(0.0, 1.2);
+      drive.move_for(0.0, 1.6);
     });
   };
   drive.seen.by_hand = true;
@@ -155,7 +199,7 @@ TEST(by_hand_it_begins_where_it_was_left, Resting drive) {
   drive.seen.by_hand = false;
   drive.move_for(0.1, 0.4);
   assert_int_equal(drive.verdict, RestVerdict::kRests);
-  drive.move_for(0.0, 1.2);
+  drive.move_for(0.0, 1.6);
   drive.move_for(0.1, 0.4);
   assert_int_equal(drive.verdict, RestVerdict::kMoves);
 }
@@ -178,19 +222,25 @@ TEST(bounds_are_what_they_say) {
   bounds.rest_s = 0.5;
   RestState state;
   state.anchored = true;
+  state.asked = true;
   state.moves = true;
   const auto at = [&](double stroke_m, double elapsed_s) {
     return watch_rest(bounds, {stroke_m, false, false}, elapsed_s, state);
   };
-  // Noise neither begins stillness newly nor is away.
-  at(kRestStill_m, 0.25);
+  // Noise is not away, and of 0.2 s does not begin stillness newly.
+  at(0.0, 0.25);
   assert_near(state.still_s, 0.25, 0.0);
+  at(kRestNear_m, 0.01);
+  assert_near(state.still_s, 0.26, 1e-12);
   assert_near(state.off_s, 0.0, 0.0);
+  at(kRestNear_m, 0.25);
+  assert_near(state.still_s, 0.0, 0.0);
   state.still_s = kRestStands_s - 0.25;
-  assert_int_equal(at(kRestStill_m, 0.25), RestVerdict::kRests);
+  assert_int_equal(at(kRestNear_m, 0.25), RestVerdict::kRests);
 
   state = {};
   state.anchored = true;
+  state.asked = true;
   state.off_s = 9.0;
   assert_int_equal(at(0.0625, 0.25), RestVerdict::kRests);
   state.off_s = 0.0;
@@ -198,6 +248,7 @@ TEST(bounds_are_what_they_say) {
 
   state = {};
   state.anchored = true;
+  state.asked = true;
   state.stopped_s = 0.25;
   state.coast_m = 0.125;
   at(0.25, 0.25);
@@ -205,6 +256,7 @@ TEST(bounds_are_what_they_say) {
 
   state = {};
   state.anchored = true;
+  state.asked = true;
   state.sunk_m = 0.0625;
   assert_int_equal(at(0.0, 0.25), RestVerdict::kRests);
   state.sunk_m = -0.125;

@@ -344,13 +344,28 @@ TEST(sinking_is_said_alone, AtRest machine) {
   assert_true(open.move(-0.004, 220));
 }
 
-TEST(where_it_stands_is_not_known_without_its_stroke, AtRest machine) {
+/// The levers of his machine: said is what moves without them.
+TEST(a_spool_that_a_hand_opens_moves_its_drive, AtRest machine) {
   machine.cycle.moving = false;
-  machine.inputs.drive[kBoom].stroke_known = false;
-  machine.move(0.1, 20);
-  machine.inputs.drive[kBoom].stroke_known = true;
+  machine.inputs.automatic = false;
+  machine.inputs.drive[kBoom].spool_ratio = 0.5;
+  machine.move(0.1, 30);
+  machine.inputs.drive[kBoom].spool_ratio = 0.0;
   machine.run(20);
-  assert_well(machine.seen);
+  assert_true(machine.seen.warned.empty());
+}
+
+/// What a sensor that fails for a moment each second does not see of it.
+TEST(a_stroke_that_comes_and_goes_hides_nothing, AtRest machine) {
+  machine.cycle.moving = false;
+  bool stopped = false;
+  for (int n = 0; n < 60 && !stopped; ++n) {
+    machine.inputs.drive[kBoom].stroke_known = n % 4 != 0;
+    stopped = machine.move(0.02, 1);
+  }
+  assert_true(stopped);
+  machine.inputs.drive[kBoom].stroke_known = false;
+  assert_true(machine.move(0.0, 1));
 }
 
 /// For as long as duties that were tried may still be under way.
