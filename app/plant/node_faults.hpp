@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "app/plant/random.hpp"
 #include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
 
@@ -35,12 +36,21 @@ struct FrameFaults {
   }
 };
 
+/// A sensor that lives and lies.
+struct LivingLie {
+  double noise = 0.0;  ///< Added while it is stuck, evenly up to this, in its reading's unit.
+  /// It shows so many times what its reading changes; -1: the other way.
+  double gain = 1.0;
+  bool from_zero = false;  ///< From 0 on; else from where it was as that began.
+};
+
 /// What a stroke sensor shows.
 struct StrokeFault {
   bool stuck = false;      ///< What it showed when this began.
   double jump_m = 0.0;     ///< Added.
   double drift_mps = 0.0;  ///< Added, growing from 0 on; 0 takes it back.
   dbc::RawState state{};   ///< kValid shows the stroke; else 'error' or 'not available'.
+  LivingLie lie{};
 };
 
 /// What an angle sensor shows.
@@ -49,6 +59,7 @@ struct AngleFault {
   double jump_rad = 0.0;     ///< Added.
   double drift_radps = 0.0;  ///< Added, growing from 0 on; 0 takes it back.
   dbc::RawState state{};     ///< kValid shows the angle; else 'error' or 'not available'.
+  LivingLie lie{};
 };
 
 /// What a sensor shows, in its reading's unit.
@@ -58,12 +69,13 @@ struct ReadingFault {
   double drift_ps = 0.0;  ///< Added, growing by that much a second from 0 on; 0 takes it back.
   dbc::RawState state{};  ///< kValid shows the reading; else 'error' or 'not available'.
   std::optional<double> reads{};  ///< Shows this, whatever it measures.
+  LivingLie lie{};
 
   ReadingFault() = default;
   explicit ReadingFault(const StrokeFault& fault)
-      : stuck(fault.stuck), jump(fault.jump_m), drift_ps(fault.drift_mps), state(fault.state) {}
+      : stuck(fault.stuck), jump(fault.jump_m), drift_ps(fault.drift_mps), state(fault.state), lie(fault.lie) {}
   explicit ReadingFault(const AngleFault& fault)
-      : stuck(fault.stuck), jump(fault.jump_rad), drift_ps(fault.drift_radps), state(fault.state) {}
+      : stuck(fault.stuck), jump(fault.jump_rad), drift_ps(fault.drift_radps), state(fault.state), lie(fault.lie) {}
 };
 
 /// A sensor that can fail. A reading is taken once a cycle of 10 ms.
@@ -72,15 +84,24 @@ class FaultyReading {
   [[nodiscard]] dbc::Physical show(double reading, const ReadingFault& fault) {
     constexpr double kCycle_s = 0.01;
     drift_ = fault.drift_ps == 0.0 ? 0.0 : drift_ + kCycle_s * fault.drift_ps;
-    if (!fault.stuck) {
-      shown_ = fault.reads.value_or(reading + fault.jump + drift_);
+    if (fault.lie.gain == 1.0) {
+      from_ = reading;
+    } else if (fault.lie.from_zero) {
+      from_ = 0.0;
     }
-    return {fault.state == dbc::RawState::kValid ? shown_ : 0.0, fault.state};
+    const double scaled = from_ + fault.lie.gain * (reading - from_);
+    if (!fault.stuck) {
+      shown_ = fault.reads.value_or(scaled + fault.jump + drift_);
+    }
+    const double noise = fault.stuck ? random_.symmetric(fault.lie.noise) : 0.0;
+    return {fault.state == dbc::RawState::kValid ? shown_ + noise : 0.0, fault.state};
   }
 
  private:
   double shown_ = 0.0;  ///< Last: a stuck sensor goes on showing it.
   double drift_ = 0.0;
+  double from_ = 0.0;
+  Random random_{1, Draw::kSensorNoise};
 };
 
 struct NodeFaults {

@@ -28,12 +28,24 @@ double& drift_of(plant::StrokeFault& fault) { return fault.drift_mps; }
 double& drift_of(plant::AngleFault& fault) { return fault.drift_radps; }
 double& drift_of(plant::ReadingFault& fault) { return fault.drift_ps; }
 
-/// What a sensor can do: freeze, step, drift.
+/// What a sensor can do: freeze, with noise so high or without; step; drift; show so many times
+/// what its reading changes, from where it is or from 0 on.
 template <class Faults, class Find>
 void add_sensor(const std::string& name, const Find& find, PlantFaultTable<Faults>& table) {
   table[name + ":frozen"] = [find](Faults& faults, double) { find(faults).stuck = true; };
   table[name + ":step"] = [find](Faults& faults, double value) { step_of(find(faults)) = value; };
   table[name + ":drift"] = [find](Faults& faults, double value) { drift_of(find(faults)) = value; };
+  table[name + ":noisy"] = [find](Faults& faults, double value) {
+    find(faults).stuck = true;
+    find(faults).lie.noise = value;
+  };
+  table[name + ":gain"] = [find](Faults& faults, double value) {
+    find(faults).lie.gain = value;
+  };
+  table[name + ":scale"] = [find](Faults& faults, double value) {
+    find(faults).lie.gain = value;
+    find(faults).lie.from_zero = true;
+  };
 }
 
 /// Held where it is told, or open by so much beyond its command.

@@ -107,9 +107,11 @@ Excavator::Scenery Excavator::imu_scenery_of(std::uint64_t seed) {
   return near_the_path(scenario);
 }
 
-Excavator::Scenery Excavator::sold_scenery_of(std::uint64_t seed, const char* bus) {
+Excavator::Scenery Excavator::found_scenery_of(std::uint64_t seed, const std::string& bus,
+                                               bool soil) {
   machines::Scenario scenario = of_errors(seed, machines::Errors::kAll);
   scenario.bus = bus;
+  scenario.soil = soil;
   return near_the_path(scenario);
 }
 

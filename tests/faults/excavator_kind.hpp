@@ -53,8 +53,9 @@ struct Excavator : runs::ExcavatorSim {
   [[nodiscard]] static Scenery stall_scenery_of(std::uint64_t seed);
   /// The same with IMUs on its links instead of stroke sensors, all errors.
   [[nodiscard]] static Scenery imu_scenery_of(std::uint64_t seed);
-  /// The same with sensors of CANopen in the place of stroke sensors: a shipped bus profile.
-  [[nodiscard]] static Scenery sold_scenery_of(std::uint64_t seed, const char* bus);
+  /// The same, all errors, on a shipped bus profile (empty: ours) and, if told, in soil.
+  [[nodiscard]] static Scenery found_scenery_of(std::uint64_t seed, const std::string& bus,
+                                                bool soil = false);
   /// The 12 t machine, whose platform turns, where its program 0 begins.
   [[nodiscard]] static Scenery swinging_scenery_of(std::uint64_t seed);
   /// With program 0 where the platform turns.

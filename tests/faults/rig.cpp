@@ -39,8 +39,8 @@ void Rig<Kind>::start_ecu() {
 }
 
 template <class Kind>
-void Rig<Kind>::ask(bool enable, Task task) {
-  driver.set_schedule({{0, {enable, OperatorMode::kAutomatic, task, 1.0}}});
+void Rig<Kind>::ask(bool enable, Task task, double speed_ratio) {
+  driver.set_schedule({{0, {enable, OperatorMode::kAutomatic, task, speed_ratio}}});
 }
 
 template <class Kind>

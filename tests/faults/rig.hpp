@@ -39,8 +39,9 @@ class Rig {
   /// Steps until `done` holds; false if that takes longer than `most_us`.
   bool run_until(TimeUs most_us, const std::function<bool()>& done);
 
-  /// What the operator asks for from the next cycle on, in automatic mode.
-  void ask(bool enable, Task task);
+  /// What the operator asks for from the next cycle on, in automatic mode, at that share of full
+  /// speed.
+  void ask(bool enable, Task task, double speed_ratio = 1.0);
   /// The controller's process ends, or starts anew.
   void kill_ecu() { ecu.reset(); }
   void start_ecu();

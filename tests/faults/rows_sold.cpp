@@ -14,7 +14,7 @@ constexpr std::uint8_t kInclinometer = 17;
 
 void sensor_emergency(Trial<Excavator>& trial) {
   const bool inclined = trial.odd();
-  trial.set_up(Excavator::sold_scenery_of(trial.seed(), inclined ? "inclinometers" : "encoders"));
+  trial.set_up(Excavator::found_scenery_of(trial.seed(), inclined ? "inclinometers" : "encoders"));
   auto& rig = trial.work();
   plant::SoldFaults& sold = rig.plant.faults().sold;
   const std::uint8_t first = inclined ? kInclinometer : kEncoder;
