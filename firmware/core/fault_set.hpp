@@ -2,41 +2,78 @@
 #pragma once
 /// A set of fault codes: several can be there at once.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "firmware/core/codes.hpp"
 
 namespace graben {
 
-/// Bit n stands for the Fault of number n; kNone is never in it.
+/// Bit n of its words stands for the Fault of number n; kNone is never in it.
 class FaultSet {
  public:
-  constexpr void add(Fault fault) { bits_ |= bit(fault); }
-  constexpr void add(const FaultSet& other) { bits_ |= other.bits_; }
-  constexpr void remove(Fault fault) { bits_ &= ~bit(fault); }
-  [[nodiscard]] constexpr bool has(Fault fault) const { return (bits_ & bit(fault)) != 0; }
-  [[nodiscard]] constexpr bool empty() const { return bits_ == 0; }
-  [[nodiscard]] constexpr std::uint64_t bits() const { return bits_; }
+  /// Numbers that it can hold are below that. [-; size: two words]
+  static constexpr int kNumbers = 128;
+  static_assert(kFaultCount <= kNumbers);
+
+  constexpr void add(Fault fault) { words_[word(fault)] |= bit(fault); }
+  constexpr void add(const FaultSet& other) {
+    words_[0] |= other.words_[0];
+    words_[1] |= other.words_[1];
+  }
+  constexpr void remove(Fault fault) { words_[word(fault)] &= ~bit(fault); }
+  [[nodiscard]] constexpr bool has(Fault fault) const {
+    return (words_[word(fault)] & bit(fault)) != 0;
+  }
+  [[nodiscard]] constexpr bool empty() const { return (words_[0] | words_[1]) == 0; }
+  [[nodiscard]] constexpr bool operator==(const FaultSet& other) const {
+    return words_[0] == other.words_[0] && words_[1] == other.words_[1];
+  }
 
   /// The one with the lowest number; kNone if there is none.
   [[nodiscard]] constexpr Fault first() const { return after(Fault::kNone); }
   /// The one with the next higher number than `fault`; kNone if there is none.
   [[nodiscard]] constexpr Fault after(Fault fault) const {
-    int code = static_cast<int>(fault) + 1;
-    // Nearly always there is none.
-    for (std::uint64_t rest = bits_ >> code; rest != 0 && code < kFaultCount; rest >>= 1U, ++code) {
-      if ((rest & 1U) != 0) {
-        return static_cast<Fault>(code);
+    return static_cast<Fault>(next(static_cast<int>(fault), kFaultCount));
+  }
+  /// The next higher number than `number`, of those below `count`; 0 if there is none.
+  [[nodiscard]] constexpr int next(int number, int count) const {
+    int code = number + 1;
+    if (code < kWordBits) {
+      const int found = lowest(words_[0] >> code, code, count);
+      if (found != 0) {
+        return found;
       }
+      code = kWordBits;
     }
-    return Fault::kNone;
+    return code < kNumbers ? lowest(words_[1] >> (code - kWordBits), code, count) : 0;
   }
 
  private:
-  static constexpr std::uint64_t bit(Fault fault) {
-    return fault == Fault::kNone ? 0 : std::uint64_t{1} << static_cast<unsigned>(fault);
+  static constexpr int kWordBits = 64;  ///< In one word. [-; size: its type]
+
+  /// Number of the lowest bit, the last one being that of `code`; 0 if it is not below `count`.
+  static constexpr int lowest(std::uint64_t rest, int code, int count) {
+    // Nearly always there is none.
+    for (; rest != 0 && code < count; rest >>= 1U, ++code) {
+      if ((rest & 1U) != 0) {
+        return code;
+      }
+    }
+    return 0;
   }
-  std::uint64_t bits_ = 0;
+  static constexpr std::size_t word(Fault fault) {
+    return static_cast<std::size_t>(fault) / kWordBits % 2U;
+  }
+  /// In its word; none of a number that has no place.
+  static constexpr std::uint64_t bit(Fault fault) {
+    const auto number = static_cast<int>(fault);
+    return fault == Fault::kNone || number >= kNumbers ? 0
+                                                       : std::uint64_t{1} << (number % kWordBits);
+  }
+
+  std::array<std::uint64_t, 2> words_{};
 };
 
 }  // namespace graben

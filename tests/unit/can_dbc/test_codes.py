@@ -57,6 +57,15 @@ REFUSED = {
     "no such file": ("dozer.dbc.in", "INCLUDE common.dbc.in", "INCLUDE other.dbc.in", "other.dbc.in is not found"),
 }
 
+LIMITS = 13
+
+
+def more(row, head, number):
+    """The row again, under another name, number and text."""
+    row = re.sub(r"^\[.*\]", f"[{head}More{number}]", row)
+    row = re.sub(r"code = \d+", f"code = {number}", row)
+    return "\n" + re.sub(r'text = "', f'text = "more {number}: ', row)
+
 
 class Tree(unittest.TestCase):
     """A copy of what is read and written."""
@@ -141,6 +150,25 @@ class Tree(unittest.TestCase):
                 self.edit(f"{folder}/{name}", old, new)
                 code, _, err = self.build("--check")
                 self.assertEqual(code, 2, err)
+                self.assertIn(said, err)
+
+    def test_as_many_as_the_bus_can_say(self):
+        """Faults up to the last number of a FaultSet; one more is refused."""
+        for name, head, most, said in (("faults.toml", "", 127, "128 is more than the bus can say, 127"),
+                                       ("limits.toml", "limit.", LIMITS, f"{LIMITS + 1} is more than the bus can say")):
+            with self.subTest(name):
+                self.setUp()
+                file = self.root / "firmware/safety" / name
+                text = file.read_text(encoding="ascii")
+                row = text[text.rindex(f"\n[{head}") + 1:]
+                first = int(re.search(r"code = (\d+)", row)[1]) + 1
+                for number in range(first, most + 1):
+                    text += more(row, head, number)
+                file.write_text(text, encoding="ascii")
+                self.assertEqual(self.build()[0], 0)
+                file.write_text(text + more(row, head, most + 1), encoding="ascii")
+                code, _, err = self.build("--check")
+                self.assertEqual(code, 2)
                 self.assertIn(said, err)
 
     def test_blames_the_line_of_the_source(self):

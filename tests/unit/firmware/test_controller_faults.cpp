@@ -57,12 +57,12 @@ struct Digging : test::Running {
   }
 };
 
-std::uint64_t bits(std::initializer_list<Fault> faults) {
+FaultSet set_of(std::initializer_list<Fault> faults) {
   FaultSet set;
   for (const Fault fault : faults) {
     set.add(fault);
   }
-  return set.bits();
+  return set;
 }
 
 void assert_stopped_by(Fault fault, const ExcavatorOutputs& outputs) {
@@ -79,7 +79,7 @@ void assert_latched(Fault fault, Digging& digging) {
   for (int n = 0; n < 5; ++n) {
     digging.step(digging.inputs());
     assert_stopped_by(fault, digging.outputs);
-    assert_true(digging.outputs.status.faults.bits() == bits({fault}));
+    assert_true(digging.outputs.status.faults == set_of({fault}));
   }
   digging.rearm();
   assert_int_equal(digging.outputs.status.mode, EcuMode::kArmed);
@@ -143,7 +143,7 @@ void assert_goes_on_slower(Fault fault, Lose lose) {
     assert_true(outputs.enable);
     assert_int_equal(outputs.status.mode, EcuMode::kActive);
     assert_int_equal(outputs.status.fault, fault);
-    assert_true(outputs.status.faults.bits() == bits({fault}));
+    assert_true(outputs.status.faults == set_of({fault}));
     assert_int_equal(outputs.status.why_not_armed, 0);
     assert_true(digging.wanted_mps() < 1.5 * share * whole_mps);
     assert_true(digging.wanted_mps() > 0.5 * share * whole_mps);
@@ -316,9 +316,9 @@ TEST(the_status_names_all_faults, Digging digging) {
   inputs.swash_ratio[1].validity = Validity::kNotAvailable;
   digging.step(inputs);
   assert_stopped_by(Fault::kSwashMissing, digging.outputs);
-  assert_true(digging.outputs.status.faults.bits() ==
-              bits({Fault::kSwashMissing, Fault::kBusPassive, Fault::kValueOutOfRange}));
+  assert_true(digging.outputs.status.faults ==
+              set_of({Fault::kSwashMissing, Fault::kBusPassive, Fault::kValueOutOfRange}));
   // Gone from the bus, and yet there: it is latched.
   digging.step(digging.inputs());
-  assert_true(digging.outputs.status.faults.bits() == bits({Fault::kSwashMissing}));
+  assert_true(digging.outputs.status.faults == set_of({Fault::kSwashMissing}));
 }

@@ -86,7 +86,7 @@ TEST(a_stopped_machine_is_not_judged, Machine machine) {
   machine.inputs.faults.add(Fault::kStrokeMissing);
   set_strokes(machine.inputs, {0.0, 0.0, 0.0, 0.0});
   machine.run(20);
-  assert_int_equal(machine.seen.faults.bits(), 1U << 1U);
+  assert_true(machine.seen.faults == machine.inputs.faults);
   assert_near(machine.state.drives.motion[0].since_s, 0.0, 0.0);
 }
 
