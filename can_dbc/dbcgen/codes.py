@@ -164,6 +164,6 @@ def load(folder: pathlib.Path) -> Codes:
         raise CodeError(f"limits.toml: unknown section {unknown[0]}")
     names = tuple(block.name for block in blocks)
     faults = [_fault("faults.toml", name, values, names) for name, values in _table(folder / "faults.toml").items()]
-    # 13: the last valid number of 4 bits; 31: the last bit; 127: the last bit of a FaultSet.
+    # 29: the last valid number of 5 bits; 31: the last bit; 127: the last bit of a FaultSet.
     return Codes(_in_order("faults.toml", faults, 1, 127), _in_order("limits.toml", blocks, 0, 31),
-                 _in_order("limits.toml", limits, 1, 13))
+                 _in_order("limits.toml", limits, 1, 29))

@@ -57,8 +57,8 @@ def member(signal: Signal) -> str:
 
 
 def largest_valid_raw(width: int) -> int | None:
-    """Upper end of J1939's valid range of a parameter with special values; None: no such width."""
-    return {2: 0x1, 4: 0xD, 8: 0xFA, 16: 0xFAFF, 24: 0xFAFFFF, 32: 0xFAFFFFFF}.get(width)
+    """Upper end of the valid range of a parameter with special values, J1939's; None: no such width."""
+    return {2: 0x1, 3: 0x5, 4: 0xD, 5: 0x1D, 8: 0xFA, 16: 0xFAFF, 24: 0xFAFFFF, 32: 0xFAFFFFFF}.get(width)
 
 
 def special_raws(database: Database, signal: Signal) -> tuple[int, int]:

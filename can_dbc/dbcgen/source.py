@@ -15,11 +15,11 @@
       "in the next line."
 
 (factor,offset) is (1,0) and the unit none unless said. A message with a data id has its Crc and Counter. Signals of
-2, 4, 8, 16, 24 or 32 bits have the special values of J1939 unless they are `plain`. The names in braces are those of raw
-0, 1, ..., which is then the range; {@faults} and {@limits} are those of the code table, @arm_blocks in a comment its
-list. A signal starts
-as `not available` where another node than Graben sends a measured value, else at its physical zero; `start na` or
-`start RAW` says another. Graben's go to Machine and Operator, all others to Graben, unless `to` says another.
+2, 3, 4, 5, 8, 16, 24 or 32 bits have the special values of J1939 unless they are `plain`. The names in braces are those
+of raw 0, 1, ..., which is then the range; {@faults} and {@limits} are those of the code table, @arm_blocks in a comment
+its list. A signal starts as `not available` where another node than Graben sends a measured value, else at its physical
+zero; `start na` or `start RAW` says another. Graben's go to Machine and Operator, all others to Graben, unless `to` says
+another.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ from fractions import Fraction
 from .codes import Codes
 from .model import Refusal
 
-SPECIALS = {2: (2, 3), 4: (14, 15), 8: (254, 255), 16: (0xFEFF, 0xFFFF), 24: (0xFEFFFF, 0xFFFFFF),
-            32: (0xFEFFFFFF, 0xFFFFFFFF)}
+SPECIALS = {2: (2, 3), 3: (6, 7), 4: (14, 15), 5: (30, 31), 8: (254, 255), 16: (0xFEFF, 0xFFFF),
+            24: (0xFEFFFF, 0xFFFFFF), 32: (0xFEFFFFFF, 0xFFFFFFFF)}
 OURS = "Graben"
 CRC = "CRC-8 of the data id and bytes 1 to 7; polynomial 0x1D, AUTOSAR profile 11, mode BOTH."
 COUNTER = "Counts up by one a frame, 0 .. 14, then 0 again; 15 is invalid."

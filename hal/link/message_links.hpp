@@ -52,7 +52,8 @@ constexpr std::uint32_t rejected(const LinkCounters& counters) {
 /// frame under any id with our own address is somebody else's, for no port hears what it sends.
 class MessageLinks {
  public:
-  static constexpr std::size_t kMostMessages = 16;
+  /// An excavator's bus has 16; what is planned is in can_dbc/README.md.
+  static constexpr std::size_t kMostMessages = 24;
   static constexpr int kNoMessage = -1;
   /// So long after a frame under an id of ours its sender counts as there: a second is the longest
   /// that a controller is silent.
@@ -107,7 +108,8 @@ class MessageLinks {
   std::array<bool, 256> fits_a_message_{};  ///< By e2e_fitting_signature, of all of the bus.
   std::array<Batch, kMostMessages> batch_{};
   std::array<dbc::Payload, kMostMessages> newest_{};  ///< Of an unprotected message's surplus.
-  unsigned has_newest_ = 0;                           ///< A bit for each message.
+  std::uint32_t has_newest_ = 0;                      ///< A bit for each message.
+  static_assert(kMostMessages <= 32);
   std::array<E2eState, kMostMessages> e2e_{};
   std::array<E2eWindow, kMostMessages> window_{};
   std::array<MessageClock, kMostMessages> clock_{};

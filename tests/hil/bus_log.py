@@ -35,7 +35,7 @@ class Frame:
     # Of EcuStatus.
     @property
     def mode(self) -> int:
-        return self.bits(0, 4)
+        return self.bits(0, 3)
 
     @property
     def fault(self) -> int:

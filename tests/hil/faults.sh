@@ -5,15 +5,15 @@
 . ./hil.sh
 . ./ecu.sh
 
-# The last EcuStatus on the bus says this mode. To look takes four processes, which cost the guest more than
-# the controller's cycles.
-mode_is() { tail -n 60 "$OUT/vcan0.log" | grep '18FF3182#' | tail -n 1 | grep -q "18FF3182#.$1"; }
+# The last EcuStatus on the bus says this mode: three bits of the second digit, whose fourth may be either. To look
+# takes four processes, which cost the guest more than the controller's cycles.
+mode_is() { tail -n 60 "$OUT/vcan0.log" | grep '18FF3182#' | tail -n 1 | grep -q "18FF3182#.[$1]"; }
 LOOKS_PER_S=10
 
 # begin ROW: waits until the operator has let go and the machine has been digging anew for a moment.
 begin() {
-  wait_until 15 mode_is 1 || fail "row $1: not ready"
-  wait_until 15 mode_is 3 || fail "row $1: not active"
+  wait_until 15 mode_is 19 || fail "row $1: not ready"
+  wait_until 15 mode_is 3B || fail "row $1: not active"
   sleep 1
   cansend vcan0 "7F0#$1"
 }

@@ -46,8 +46,8 @@ for (const kind of KINDS) {
 
 test('what the DBC says beside the bits', () => {
   const excavator = loadDatabase('excavator');
-  assert.equal(excavator.version, 10);
-  assert.equal(loadDatabase('dozer').version, 7);
+  assert.equal(excavator.version, 11);
+  assert.equal(loadDatabase('dozer').version, 8);
   const boom = excavator.messages.get('BoomStroke')!;
   assert.deepEqual([boom.id, boom.cycle_ms, boom.data_id, boom.max_delta, boom.sender],
     [0x0cff2080, 10, 65312, 3, 'Machine']);
@@ -67,8 +67,10 @@ test('special values as the controller takes them', () => {
   assert.equal(stroke.state(0xff00), 'notAvailable');
   assert.equal(stroke.state(0xffff), 'notAvailable');
   const mode = loadDatabase('excavator').signal('EcuStatus.Mode');
-  assert.deepEqual([5, 6, 14, 15].map((raw) => mode.state(raw)),
-    ['valid', 'error', 'error', 'notAvailable']);
+  assert.deepEqual([5, 6, 7].map((raw) => mode.state(raw)), ['valid', 'error', 'notAvailable']);
+  const limit = loadDatabase('excavator').signal('EcuStatus.LimitKind');
+  assert.deepEqual([13, 14, 29, 30, 31].map((raw) => limit.state(raw)),
+    ['valid', 'error', 'error', 'error', 'notAvailable']);
   const lamp = loadDatabase('excavator').signal('DM1.RedStopLamp');
   assert.deepEqual([0, 1, 2, 3].map((raw) => lamp.state(raw)),
     ['valid', 'valid', 'error', 'notAvailable']);

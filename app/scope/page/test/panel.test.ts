@@ -58,7 +58,7 @@ test('a limit has one colour of its own, whatever was seen before it, in both th
   }
 });
 
-const status_bytes = (kind: number, index: number) => [3 | (kind << 4), index, 0, 0, 0, 0, 0, 0];
+const status_bytes = (kind: number, index: number) => [3 | (kind << 3), index, 0, 0, 0, 0, 0, 0];
 
 test('shares are counted by frames that say Active, in the window that is told', () => {
   const status = (time_s: number, kind: number, index: number) =>

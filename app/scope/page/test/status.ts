@@ -19,7 +19,7 @@ export const stroke = (time_s: number): string => line(time_s, id('BoomStroke'),
 export function status(time_s: number, mode: number, fault: number, limit = 0, lambda = 0): string {
   const raw = Math.round(lambda / 0.00002);
   return line(time_s, id('EcuStatus'),
-    [mode | (limit << 4), 0, raw & 0xff, raw >> 8, fault, 0, 0, 0]);
+    [mode | (limit << 3), 0, raw & 0xff, raw >> 8, fault, 0, 0, 0]);
 }
 
 export function trouble(time_s: number, fault: number): string {

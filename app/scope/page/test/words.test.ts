@@ -34,8 +34,8 @@ test('every limit that the DBC knows has words of its own', () => {
 });
 
 test('a limit that is in error or not available says so', () => {
-  assert.equal(limit_words(14, 0, CONTEXT), 'limit in error');
-  assert.equal(limit_words(15, 255, CONTEXT), 'limit not available');
+  assert.equal(limit_words(30, 0, CONTEXT), 'limit in error');
+  assert.equal(limit_words(31, 255, CONTEXT), 'limit not available');
   assert.equal(limit_words(4, 254, CONTEXT), 'stroke end: drive in error');
   assert.equal(limit_words(4, 255, CONTEXT), 'stroke end: drive not available');
   for (const limit of [1, 2, 3, 4, 6, 8, 12]) {

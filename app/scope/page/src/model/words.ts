@@ -34,8 +34,8 @@ export interface LimitContext {
 }
 
 /// As the DBC has them, of LimitKind and of LimitIndex.
-const KIND_ERROR = 14;
-const KIND_NOT_AVAILABLE = 15;
+const KIND_ERROR = 30;
+const KIND_NOT_AVAILABLE = 31;
 const INDEX_ERROR = 254;
 const INDEX_NOT_AVAILABLE = 255;
 
