@@ -13,7 +13,7 @@
 #include "app/export/bus_messages.hpp"
 #include "app/export/json_message.hpp"
 #include "app/export/mcap_writer.hpp"
-#include "app/identify/machine/candump_reader.hpp"
+#include "app/identify/machine/log_version.hpp"
 #include "app/runs/code_text.hpp"
 #include "app/runs/run_log.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
@@ -199,7 +199,7 @@ ExportCounts export_mcap(const std::filesystem::path& log, const std::filesystem
   Channels channels(writer, run.is_dozer, bus ? &*bus : nullptr);
   StateWords words(writer, run.is_dozer ? runs::dozer_actuators() : runs::excavator_actuators());
   Clock clock(log);
-  static_cast<void>(identify::read_candump(
+  identify::read_versioned(
       log,
       [&](const identify::LoggedFrame& frame) {
         const std::uint64_t time_ns = clock.stamp(frame);
@@ -209,7 +209,7 @@ ExportCounts export_mcap(const std::filesystem::path& log, const std::filesystem
           words.take(Status::decode(frame.data), time_ns, frame.line);
         }
       },
-      identify::CutLine::kPassedOver));
+      identify::CutLine::kPassedOver);
   writer.finish();
   counts.messages = writer.messages();
   counts.channels = channels.count() + 2;

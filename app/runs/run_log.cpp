@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "app/identify/machine/candump_reader.hpp"
+#include "app/identify/machine/log_version.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/buses/common_messages.hpp"
@@ -213,9 +213,9 @@ RunLog read_run_log(const std::filesystem::path& file) {
   RunLog run;
   run.name = file.string();
   Reader reader(run);
-  static_cast<void>(identify::read_candump(
+  identify::read_versioned(
       file, [&reader](const identify::LoggedFrame& frame) { reader.take(frame); },
-      identify::CutLine::kPassedOver));
+      identify::CutLine::kPassedOver);
   reader.finish();
   return run;
 }

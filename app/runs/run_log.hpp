@@ -63,7 +63,8 @@ struct RunLog {
 };
 
 /// Reads a candump log, plain or gzip; a last line that is cut is passed over. Throws
-/// std::runtime_error that names it where it cannot be read, has no candump lines, or no EcuStatus.
+/// std::runtime_error that names it where it cannot be read, has no candump lines, no EcuStatus, or
+/// another version of the DBC than is read (app/identify/machine/log_version.hpp).
 [[nodiscard]] RunLog read_run_log(const std::filesystem::path& file);
 
 /// What held lambda, or a dozer's speed: of all EcuStatus that say Active, the share of each limit.

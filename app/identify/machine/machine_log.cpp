@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "app/identify/machine/candump_reader.hpp"
+#include "app/identify/machine/log_version.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/link/e2e.hpp"
@@ -178,11 +179,11 @@ void LogCollector::Frames::decode(const LoggedFrame& frame) {
 void LogCollector::Frames::identify(const LoggedFrame& frame) {
   const auto message = bus::MachineIdentity::decode(frame.data);
   if (message.dbc_version.state == dbc::RawState::kValid &&
-      message.dbc_version.value != bus::kDbcVersion && other_version_.empty()) {
+      !is_read(message.dbc_version.value, kExcavatorVersions) && other_version_.empty()) {
     // A dozer's DBC has a version of its own: what the bus is comes first.
     other_version_ =
-        fmt::format("{}:{}: the machine speaks version {} of the DBC, this tool version {}", name_,
-                    frame.line, message.dbc_version.value, bus::kDbcVersion);
+        fmt::format("{}:{}: the machine speaks version {} of the DBC, {}", name_, frame.line,
+                    message.dbc_version.value, read_versions(kExcavatorVersions));
   }
   const std::uint32_t hash = message.profile_hash.value;
   if (log_.profile_hash != 0 && hash != log_.profile_hash) {

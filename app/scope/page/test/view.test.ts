@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import type {Run, Setup} from '../src/model/api';
-import {loadDatabase} from '../src/model/dbc';
+import {loadDatabase, oldest_version} from '../src/model/dbc';
 import {State} from '../src/state';
 import {alarms_of} from '../src/view/faults/alarm_rules';
 import {align, cut, lower_bound} from '../src/view/basics/curves';
@@ -118,9 +118,14 @@ test('a stopped machine and a plan that cannot work are alarms', () => {
 
 test('what is wrong with a log is said with place and number', () => {
   const frames = stroke(0) + status(0, 3, 0);
-  const other = alarms(page(frames + identity(0, 0xdeadbeef, EXCAVATOR.version - 1)));
-  assert.equal(other.dbc, `alarm: Written with DBC version ${EXCAVATOR.version - 1}, this page `
-    + `reads version ${EXCAVATOR.version}: values may be wrong.`);
+  const own = EXCAVATOR.version;
+  const oldest = oldest_version('excavator');
+  for (const version of [oldest - 1, own + 1]) {
+    assert.equal(alarms(page(frames + identity(0, 0xdeadbeef, version))).dbc, 'alarm: Written with '
+      + `DBC version ${version}, this page reads versions ${oldest} to ${own}: values may be wrong.`);
+  }
+  const other = alarms(page(frames + identity(0, 0xdeadbeef, oldest)));
+  assert.equal(other.dbc, undefined);
   assert.match(other.profile!, /hash 0xDEADBEEF is known here/);
   assert.equal(alarms(page(`${frames}rubbish\n`)).malformed,
     'warning: 1 line is not candump, the first is line 3: ‘rubbish’.');

@@ -24,13 +24,42 @@ export interface SignalLayout extends SignalDef {
 }
 
 const known = new Map<Kind, Database>();
+const known_before = new Map<Kind, Database>();
 
 /// The shipped database of this kind of machine.
 export function loadDatabase(kind: Kind): Database {
-  let database = known.get(kind);
+  return kept(known, kind, () => parseDatabase(kind, TEXT[kind]));
+}
+
+/// Versions that are read, and the first whose LimitKind has five bits: before it EcuStatus alone was
+/// another. As log_version.hpp of identify; a log of each is in tests/old_logs.
+const OLDEST: Readonly<Record<Kind, number>> = {excavator: 10, dozer: 7};
+const FIVE_BITS: Readonly<Record<Kind, number>> = {excavator: 11, dozer: 8};
+
+export const oldest_version = (kind: Kind): number => OLDEST[kind];
+export const is_read = (kind: Kind, version: number): boolean =>
+  version >= OLDEST[kind] && version <= loadDatabase(kind).version;
+
+/// That by which frames of a sender of this version are read.
+export function databaseOf(kind: Kind, version: number): Database {
+  return version >= FIVE_BITS[kind] ? loadDatabase(kind)
+    : kept(known_before, kind, () => parseDatabase(kind, before(TEXT[kind])));
+}
+
+const TEXT: Readonly<Record<Kind, string>> = {excavator: excavator_text, dozer: dozer_text};
+
+function before(text: string): string {
+  return text.replace(' SG_ Mode : 0|3@', ' SG_ Mode : 0|4@')
+    .replace(' SG_ LimitKind : 3|5@', ' SG_ LimitKind : 4|4@')
+    .replace(/^(BA_ "Sig(Error|NotAvailable)Raw" SG_ \d+ (Mode|LimitKind)) \d+;/gm,
+      (_all, signal: string, what: string) => `${signal} ${what === 'Error' ? 14 : 15};`);
+}
+
+function kept(from: Map<Kind, Database>, kind: Kind, make: () => Database): Database {
+  let database = from.get(kind);
   if (database === undefined) {
-    database = parseDatabase(kind, kind === 'excavator' ? excavator_text : dozer_text);
-    known.set(kind, database);
+    database = make();
+    from.set(kind, database);
   }
   return database;
 }

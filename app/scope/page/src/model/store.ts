@@ -7,7 +7,7 @@ import type {
 import {BusEstimate} from './bus_frames';
 import {bits_in_second} from './bus_load';
 import {EMPTY, make_curve} from './curve';
-import {loadDatabase, type SignalLayout} from './dbc';
+import {databaseOf, loadDatabase, type SignalLayout} from './dbc';
 import {ImuEstimate} from './imu_frames';
 import {EXTENDED, type FrameBlock, type ParseCount} from './frame_block';
 import {Series} from './series';
@@ -78,6 +78,7 @@ export class PageStore implements FrameStore {
       this.newest_s = Math.max(this.newest_s, time_s[rows - 1]);
     }
     this.known ??= this.tell_database();
+    this.heed_version();
     this.estimate_strokes();
     this.read_faults();
     if (this.newest_s - this.oldest_s > this.keep_s + TRIM_EVERY_S) {
@@ -255,6 +256,17 @@ export class PageStore implements FrameStore {
       }
     }
     return this.tell_by_hash();
+  }
+
+  /// Frames are kept as they came: once the sender has said its version, all are read by it. What
+  /// faults are read from is the same in all that are read.
+  private heed_version(): void {
+    const version = this.known === null ? null : this.identity('DbcVersion');
+    const database = version === null ? this.known : databaseOf(this.known!.kind, version);
+    if (database !== this.known) {
+      this.known = database;
+      this.signals.clear();
+    }
   }
 
   /// Both kinds say who they are by the same frames.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What is wrong, as sentences: with the machine, with its plan, with the bus, with the file.
 
+import {is_read, oldest_version} from '../../model/dbc';
 import {count, hash_words} from '../basics/format';
 import {is_live, type PageState} from '../basics/page_state';
 import {active_codes, snapshot, type Snapshot} from '../basics/snapshot';
@@ -140,11 +141,12 @@ function log_alarms({store, setup, machine, ended}: PageState): Alarm[] {
     alarms.push({id: 'foreign', level: 'alarm', words: 'No frame of this log is in a DBC that '
       + 'this page has: it is not of an excavator or a dozer of ours.'});
   }
-  if (database !== null && health.dbc_version !== null && health.dbc_version !== database.version) {
+  const version = health.dbc_version;
+  if (database !== null && version !== null && !is_read(database.kind, version)) {
     alarms.push({
       id: 'dbc', level: 'alarm',
-      words: `Written with DBC version ${health.dbc_version}, this page reads version `
-        + `${database.version}: values may be wrong.`,
+      words: `Written with DBC version ${version}, this page reads versions `
+        + `${oldest_version(database.kind)} to ${database.version}: values may be wrong.`,
     });
   }
   if (health.profile_hash !== null && machine === null && setup !== null) {
