@@ -154,16 +154,19 @@ void look_at_standstill(const McvCircuit& circuit, McvSolution& solution) {
 }
 
 bool finite(const McvSolution& solution) {
-  double sum = solution.point.lambda + solution.shortfall;
+  double sum = solution.point.lambda + solution.shortfall + solution.standstill.short_n;
   const auto add = [&sum](const auto& values) {
     for (const double value : values) {
       sum += value;
     }
   };
   add(solution.point.pump_pressure_pa);
+  add(solution.point.sqrt_pressure);
+  add(solution.point.feed_margin_m3ps);
   add(solution.point.out_pressure_pa);
   add(solution.point.drive_force_n);
   add(solution.point.spool_m);
+  add(solution.point.yield_mpsn);
   add(solution.margins.flow_m3ps);
   add(solution.margins.force_n);
   add(solution.margins.travel_m);

@@ -21,8 +21,9 @@ bool finite(const McvSolution& solution) {
          std::isfinite(solution.standstill.short_n) && all_finite(point.pump_pressure_pa) &&
          all_finite(point.sqrt_pressure) && all_finite(point.feed_margin_m3ps) &&
          all_finite(point.out_pressure_pa) && all_finite(point.drive_force_n) &&
-         all_finite(point.spool_m) && all_finite(solution.margins.flow_m3ps) &&
-         all_finite(solution.margins.force_n) && all_finite(solution.margins.travel_m);
+         all_finite(point.spool_m) && all_finite(point.yield_mpsn) &&
+         all_finite(solution.margins.flow_m3ps) && all_finite(solution.margins.force_n) &&
+         all_finite(solution.margins.travel_m);
 }
 
 bool closed(const McvSolution& solution) {

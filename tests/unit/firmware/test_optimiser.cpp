@@ -224,6 +224,31 @@ TEST(corners_are_safe) {
   assert_true(refused > 50000 && moving > 2000);
 }
 
+/// At a force of nothing a drive of a line under negative flow control gives way without end.
+TEST(a_yield_that_is_no_number_is_no_solution) {
+  McvMachine machine = kim();
+  for (McvActuator& actuator : machine.actuator) {
+    actuator.force_offset_n = 0.0;
+  }
+  for (McvPump& pump : machine.pump) {
+    pump.has_relief = true;
+    pump.relief_pa = 3e7;
+    pump.tank_orifice = 1e-6;
+    pump.series_resistance = 1e12;
+    pump.regulator.kind = PumpKind::kNegativeFlow;
+    pump.regulator.full_swash_pa = 0.8e6;
+    pump.regulator.least_swash_pa = 3e6;
+  }
+  const auto fixed = [&](double cap_pa) {
+    return solve_mcv(machine, split_input(cap_pa), McvPolicy::kFixed);
+  };
+  assert_int_equal(fixed(0.6e6).status, SolveStatus::kOk);
+  const McvSolution heavy = fixed(29e6);
+  assert_string_equal(test::unsafe(machine, split_input(29e6), {}, heavy).c_str(), "");
+  assert_int_equal(heavy.status, SolveStatus::kNotConverged);
+  assert_near(heavy.point.lambda, 0.0, 0.0);
+}
+
 /// A share of a reserve is that much less of it, also where half of what is left over bounds it.
 TEST(a_share_of_the_reserve) {
   const McvInput input = split_input(4e6);
