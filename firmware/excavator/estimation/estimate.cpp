@@ -103,7 +103,8 @@ void estimate_load(const ExcavatorModel& machine, const ExcavatorValid& valid,
   }
   const KinematicState& pose = state.pose;
   LoadSeen seen;
-  seen.known = pose.status == ReachStatus::kOk;
+  seen.posed = pose.status == ReachStatus::kOk;
+  seen.known = seen.posed;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const ValidDrive& drive = valid.drive[static_cast<unsigned>(axis)];
     const DriveRow& row = machine.drives[axis];

@@ -21,6 +21,7 @@ class LoadWorld {
   Eigen::Vector3d viscous_nspm = Eigen::Vector3d::Zero();
   std::array<double, 3> mass_factor = {1.0, 1.0, 1.0};
   bool active = true;
+  bool blind = false;       ///< A pressure is missing.
   double elapsed_s = 0.01;  ///< Of each cycle.
   LoadObserver observer;
 
@@ -129,7 +130,8 @@ class LoadWorld {
              const Eigen::Vector3d& change_mps2 = Eigen::Vector3d::Zero()) {
     const KinematicState now = kinematics_.state(strokes_m);
     LoadSeen seen;
-    seen.known = now.status == ReachStatus::kOk;
+    seen.posed = now.status == ReachStatus::kOk;
+    seen.known = seen.posed && !blind;
     seen.stroke_m = strokes_m;
     seen.force_n = forces_n(strokes_m, speed_mps) + inertia_n(strokes_m, speed_mps, change_mps2);
     for (int i = 0; i < 3; ++i) {

@@ -208,7 +208,6 @@ TEST(not_known, LoadWorld world) {
     assert_false(world.told().known);
   };
   next();
-  assert_false(world.told().payload_known);
   seen.known = true;
   seen.force_n[kArm] = std::numeric_limits<double>::quiet_NaN();
   repeat(30, next);
@@ -216,6 +215,71 @@ TEST(not_known, LoadWorld world) {
   world.move(StepKind::kReturnToDig, kOut, kHigh, 6.0);
   assert_true(world.told().known);
   assert_true(world.told().force_n.norm() < 1500.0);
+}
+
+/// What a cycle without a pressure leaves: nothing of the teeth, all that was learnt.
+void miss_one(StepKind kind, const TipPose& pose, LoadWorld& world) {
+  world.blind = true;
+  world.stand(kind, pose, 0.01);
+  assert_false(world.told().known);
+  world.blind = false;
+}
+
+// One missing pressure, and what was weighed is in the bucket still, with what it has carried away.
+TEST(a_missing_pressure_forgets_no_payload, LoadWorld world) {
+  wave_empty(world);
+  lift(world, 1000.0);
+  const TipLoad before = world.told();
+  assert_true(before.payload_known);
+  miss_one(StepKind::kSwing, kLifted, world);
+  for (int n = 0; n < 2; ++n) {
+    assert_true(world.told().payload_known);
+    assert_near(world.told().payload_kg, before.payload_kg, 5.0);
+    world.stand(StepKind::kSwing, kLifted, 0.5);
+  }
+  world.blind = true;
+  world.stand(StepKind::kSwing, kLifted, 0.9 * kPayloadUnseen_s);
+  assert_true(world.told().payload_known);
+  world.stand(StepKind::kSwing, kLifted, 0.2 * kPayloadUnseen_s);
+  assert_false(world.told().payload_known);
+  world.blind = false;
+  world.stand(StepKind::kSwing, kLifted, 0.1);
+  assert_near(world.told().payload_kg, before.payload_kg, 5.0);
+}
+
+// ... and the heap lies where it was: going back through it is not taken for an offset.
+TEST(a_missing_pressure_forgets_no_heap, LoadWorld world) {
+  wave_empty(world);
+  lift(world, 1200.0);
+  world.load_kg = 0.0;
+  // The pressure is away where it pours: the pose says that it does.
+  world.blind = true;
+  world.stand(StepKind::kDump, kHigh, 2.0);
+  world.blind = false;
+  world.stand(StepKind::kReturnToDig, kHigh, 2.0);
+  const double heap_m = world.observer.phase.heap_m;
+  assert_true(heap_m > 0.5);
+  miss_one(StepKind::kReturnToDig, kHigh, world);
+  assert_near(world.observer.phase.heap_m, heap_m, 0.0);
+  assert_true(world.observer.last_fill_kg > 1000.0 && world.observer.poured_kg > 1000.0);
+  const LoadTerms before = world.observer.terms;
+  constexpr double kWithin_m = -1.2;
+  world.teeth_n = {-3e3, 8e3};
+  world.move(StepKind::kReturnToDig, {7.0, kWithin_m, 1.9}, {7.6, kWithin_m, 2.0}, 4.0);
+  same_terms(before, world.observer.terms);
+}
+
+// Half a block of before and half of after is none: a pressure that is away again and again teaches
+// nothing wrong.
+TEST(a_pressure_that_comes_and_goes_teaches_nothing, LoadWorld world) {
+  wave_empty(world);
+  const LoadTerms before = world.observer.terms;
+  world.offset_n = {30e3, 30e3, 30e3};
+  for (int n = 0; n < 40; ++n) {
+    miss_one(StepKind::kReturnToDig, kHigh, world);
+    world.stand(StepKind::kReturnToDig, kHigh, 0.01 * (kLoadBlock - 1));
+  }
+  same_terms(before, world.observer.terms);
 }
 
 // In motion the cylinders' power is what kinetic and potential energy gain.

@@ -12,7 +12,8 @@ namespace graben {
 
 /// What is seen in a cycle.
 struct LoadSeen {
-  bool known = false;  ///< Pressures and pose.
+  bool posed = false;  ///< The pose is known.
+  bool known = false;  ///< The pose, and all pressures.
   Eigen::Vector3d stroke_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_n = Eigen::Vector3d::Zero();  ///< p_A A_A - p_B A_B.
   Eigen::Vector3d lever_m = Eigen::Vector3d::Ones();  ///< d stroke / d joint angle.

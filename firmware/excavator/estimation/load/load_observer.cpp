@@ -201,7 +201,7 @@ void work(const ExcavatorProfile& profile, const LoadBalance& balance, double sh
   }
 }
 
-void tell(const ExcavatorProfile& profile, const LoadBalance& balance, LoadObserver& observer) {
+void tell_force(const LoadBalance& balance, LoadObserver& observer) {
   Eigen::Vector3d left_n = balance.force_n;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     left_n[axis] -= force_of(axis, balance.row[static_cast<unsigned>(axis)], observer.terms);
@@ -210,35 +210,57 @@ void tell(const ExcavatorProfile& profile, const LoadBalance& balance, LoadObser
   told.known = observer.gains.force_sd_n > 0.0;
   told.force_n = observer.gains.force * left_n;
   told.force_sd_n = std::hypot(observer.gains.force_sd_n, kTipForceOff * told.force_n.norm());
+}
+
+void tell_payload(const ExcavatorProfile& profile, LoadObserver& observer) {
   const LoadPhase phase = observer.phase.phase;
-  told.payload_known = phase == LoadPhase::kEmpty ||
-                       (phase == LoadPhase::kCarries && is_weighed(profile.geometry, observer));
+  const bool known = phase == LoadPhase::kEmpty ||
+                     (phase == LoadPhase::kCarries && is_weighed(profile.geometry, observer));
+  TipLoad& told = observer.told;
+  told.payload_known = known && observer.unseen_s < kPayloadUnseen_s;
   told.payload_kg = told.payload_known ? observer.terms.value[kLoadTerm] : 0.0;
   told.payload_sd_kg = told.payload_known ? std::sqrt(observer.terms.variance(kLoadTerm)) : 0.0;
+}
+
+/// What the bucket does now, by its pose.
+void follow_phase(const ExcavatorProfile& profile, StepKind kind, double share, const TipPose& tip,
+                  double elapsed_s, LoadObserver& observer) {
+  const LoadPhase before = observer.phase.phase;
+  next_phase(kind, share, tip, -profile.geometry.boom_foot_m.y(), elapsed_s, observer.phase);
+  if (observer.phase.phase != before) {
+    enter(observer.phase.phase, profile.geometry, observer);
+  }
+}
+
+/// The balances of before are of another time than the next one's.
+void drop_balances(LoadObserver& observer) {
+  observer.begun = false;
+  observer.filter = {};
+  observer.cycle = 0;
+  observer.filling = {};
+  observer.full_phase = LoadPhase::kUnsaid;
+  observer.gains = {};
+  observer.told = {};
 }
 
 }  // namespace
 
 void next_load(const ExcavatorProfile& profile, const LoadSeen& seen, StepKind kind, double share,
                const TipPose& tip, double elapsed_s, bool active, LoadObserver& observer) {
-  if (!seen.known || !seen.force_n.allFinite()) {
-    const LoadTerms terms = observer.terms;
-    observer = {};
-    observer.terms = terms;
-    return;
-  }
   if (observer.terms.variance(kOffsetTerm) == 0.0) {
     observer.terms = terms_unseen(profile);
-  }
-  if (!observer.begun) {
     enter(LoadPhase::kUnsaid, profile.geometry, observer);
   }
-  const LoadPhase before = observer.phase.phase;
-  next_phase(active ? kind : StepKind::kNone, share, tip, -profile.geometry.boom_foot_m.y(),
-             elapsed_s, observer.phase);
-  if (observer.phase.phase != before) {
-    enter(observer.phase.phase, profile.geometry, observer);
+  if (seen.posed) {
+    follow_phase(profile, active ? kind : StepKind::kNone, share, tip, elapsed_s, observer);
   }
+  if (!seen.known || !seen.force_n.allFinite()) {
+    observer.unseen_s = std::min(observer.unseen_s + elapsed_s, kPayloadUnseen_s);
+    drop_balances(observer);
+    tell_payload(profile, observer);
+    return;
+  }
+  observer.unseen_s = 0.0;
   LoadBalance balance;
   next_balance(profile, seen, elapsed_s, !observer.begun, observer.filter, balance);
   observer.begun = true;
@@ -250,7 +272,8 @@ void next_load(const ExcavatorProfile& profile, const LoadSeen& seen, StepKind k
     observer.filling = {};
     observer.cycle = 0;
   }
-  tell(profile, balance, observer);
+  tell_force(balance, observer);
+  tell_payload(profile, observer);
 }
 
 }  // namespace graben

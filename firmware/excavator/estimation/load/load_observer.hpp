@@ -11,6 +11,7 @@
 #include "firmware/excavator/estimation/load/load_balance.hpp"
 #include "firmware/excavator/estimation/load/load_phase.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben {
 
@@ -35,7 +36,7 @@ struct LoadGains {
 
 /// State from cycle to cycle.
 struct LoadObserver {
-  bool begun = false;
+  bool begun = false;  ///< The filters.
   BalanceFilter filter;
   PhaseState phase;
   LoadTerms terms;
@@ -44,15 +45,19 @@ struct LoadObserver {
   BalanceBlock full;
   LoadPhase full_phase = LoadPhase::kUnsaid;  ///< Of the last block; kUnsaid: nothing to learn.
   LoadGains gains;
-  int weighed = 0;            ///< Readings of axes that moved that the payload was in.
-  int refused = 0;            ///< Blocks in a row that no payload accounts for.
-  double last_fill_kg = 0.0;  ///< Carried away from the last dig; 0: none was.
-  double poured_kg = 0.0;     ///< Of all digs: it may lie on one heap.
+  int weighed = 0;              ///< Readings of axes that moved that the payload was in.
+  int refused = 0;              ///< Blocks in a row that no payload accounts for.
+  double last_fill_kg = 0.0;    ///< Carried away from the last dig; 0: none was.
+  double poured_kg = 0.0;       ///< Of all digs: it may lie on one heap.
+  double unseen_s = kInfinity;  ///< So long there has been no balance.
   TipLoad told;
 };
 
 /// A cycle on. `kind` and `share` are those of the step that runs. Not `active`, nothing is learnt.
-/// What is not known makes the load unknown, and the filters begin anew; the terms stay.
+///
+/// Without all pressures, or the pose, the force on the teeth is not known, and the filters begin
+/// anew. What was learnt stays: the terms, what the bucket carries, what it has poured and where;
+/// what the bucket does is followed by the pose. The payload is told for kPayloadUnseen_s more.
 void next_load(const ExcavatorProfile& profile, const LoadSeen& seen, StepKind kind, double share,
                const TipPose& tip, double elapsed_s, bool active, LoadObserver& observer);
 

@@ -98,6 +98,9 @@ inline constexpr int kPayloadReadings = 10;
 /// Standard deviation below which a payload is told, as a share of a full bucket. [-; chosen: not
 /// tried]
 inline constexpr double kPayloadToldSd = 0.12;
+/// Time without a balance after which the payload is no longer told. [s; chosen: a bucket that
+/// carries keeps what it has, a transducer that is away for long is a broken one; not tried]
+inline constexpr double kPayloadUnseen_s = 1.0;
 /// Blocks in a row that contradict a payload until it is forgotten. [-; chosen: it was learnt from
 /// what was no payload; not tried]
 inline constexpr int kPayloadRefusedMost = 4;
