@@ -101,6 +101,17 @@ void begin(const ValidDrive& seen, FlowState& state) {
   state.retract_m = 0.0;
 }
 
+/// What it was off before is forgotten as ever, no faster: a pressure that is away again and again
+/// would hide all of it.
+void lose_load(double period_s, FlowState& state) {
+  const double kept = 1.0 - std::min(1.0, period_s / kFlowForget_s);
+  state.begun = false;
+  state.behind_m *= kept;
+  state.ahead_m *= kept;
+  state.extend_m = 0.0;
+  state.retract_m = 0.0;
+}
+
 /// A stroke has come: what may have happened since the last one against what it says.
 void compare(const ValidDrive& seen, double period_s, FlowState& state) {
   const double moved_m = seen.stroke_m - state.stroke_m;
@@ -145,10 +156,10 @@ FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen, Span<const Le
   for (int i = 0; i < drives.count(); ++i) {
     const DriveWatch& bounds = drives[i].watch;
     tell(bounds.spool_late_s, seen[i].spool_ratio, period_s, state[i].told);
-    const bool known = bounds.unseen_m > 0.0 && bounds.senses_spool &&
-                       (seen[i].load_known || !has_edges(drives[i]));
-    if (!known) {
+    if (!(bounds.unseen_m > 0.0) || !bounds.senses_spool) {
       state[i] = {};
+    } else if (!seen[i].load_known && has_edges(drives[i])) {
+      lose_load(period_s, state[i]);
     } else if (!may_be_used(drives[i], seen[i], state[i])) {
       state[i].begun = false;
     } else if (!state[i].begun) {

@@ -48,8 +48,8 @@ struct FlowState {
 /// is within the bounds wears the difference off, and 10 s are its time constant: leakage is no
 /// drift. A spool told by its pilot pressure comes after it: all that it was told of late bounds
 /// the travel. Neither a drive without measured spool nor one whose pressures are not known, stand
-/// still to the last bit, step or are near their rail is checked. `learnt` is empty where no valve
-/// is.
+/// still to the last bit, step or are near their rail is checked, for as long as that lasts: what
+/// it was off before stays. `learnt` is empty where no valve is.
 [[nodiscard]] FaultSet watch_flow(DriveRows drives, Span<const ValidDrive> seen,
                                   Span<const LearntValve> learnt, double engine_radps,
                                   double period_s, Span<FlowState> state);

@@ -280,7 +280,7 @@ TEST(steps_and_rails_say_nothing) {
   }
 }
 
-/// What it was off before stays where one cycle says nothing; not where the load is lost.
+/// What it was off before stays where one cycle says nothing, and wears off where none does.
 TEST(a_gap_forgets_only_what_it_must, Watched watched) {
   repeat(4, [&] { static_cast<void>(watched.step()); });
   const double behind_m = watched.state.behind_m;
@@ -292,8 +292,23 @@ TEST(a_gap_forgets_only_what_it_must, Watched watched) {
   assert_near(watched.state.extend_m, 0.0, 0.0);
   watched.seen.load_known = false;
   static_cast<void>(watched.step());
-  assert_near(watched.state.behind_m, 0.0, 0.0);
+  assert_near(watched.state.behind_m, 0.999 * behind_m, 1e-9);
+  assert_near(watched.state.extend_m, 0.0, 0.0);
   assert_false(watched.state.begun);
+  repeat(6000, [&] { static_cast<void>(watched.step()); });
+  assert_near(watched.state.behind_m, 0.0, 1e-5);
+}
+
+/// A pressure that is away every eighth cycle hides no stroke that goes beyond its oil.
+TEST(a_pressure_that_comes_and_goes_hides_nothing, Watched watched) {
+  watched.seen.spool_ratio = 0.0;
+  bool found = false;
+  for (int n = 0; n < 100 && !found; ++n) {
+    watched.seen.load_known = n % 8 != 0;
+    found = watched.step().has(Fault::kMotionImplausible);
+    watched.seen.stroke_m += 0.1 * kPeriod_s;
+  }
+  assert_true(found);
 }
 
 TEST(without_spool_or_load_nothing_is_checked, Watched no_spool) {
