@@ -177,7 +177,7 @@ void EcuNode<Kind>::leave_last_frames(TimeUs now_us) {
   neutral.pilot_known = outputs_.pilot_known;
   typename Transmitter::Frames frames;
   const int count = transmitter_.next_frames(neutral, &Kind::is_command, now_us, frames);
-  last_->put(frames.data(), static_cast<std::size_t>(count));
+  last_->put(frames, static_cast<std::size_t>(count));
 }
 
 template <class Kind>

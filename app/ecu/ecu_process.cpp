@@ -84,7 +84,9 @@ struct Buses {
       if (!port.open()) {
         throw std::runtime_error(port.last_error());
       }
-      group.add(port);
+      if (!group.add(port)) {
+        throw std::runtime_error("no room for interface " + name);
+      }
     }
   }
   [[nodiscard]] CanPortCounters counters() const {

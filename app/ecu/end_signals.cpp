@@ -41,12 +41,13 @@ void send_last_frames() {
   const LastFrames::Frames& frames = last->get();
   for (std::size_t i = 0; i < frames.count; ++i) {
     can_frame raw{};
+    const std::uint8_t bus = frames.frame[i].bus;
     const bool good = to_socketcan(frames.frame[i], raw);
-    for (const SocketCanPort* const port : g_ports) {
-      if (good && port != nullptr) {
+    for (std::size_t port = 0; port < g_ports.size(); ++port) {
+      if (good && g_ports[port] != nullptr && (bus == kAnyBus || bus == port)) {
         // Nobody is left who could do anything about a frame that is not taken.
         static_cast<void>(
-            ::send(port->descriptor(), &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL));
+            ::send(g_ports[port]->descriptor(), &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL));
       }
     }
   }
@@ -84,7 +85,12 @@ bool caught(int signal, void (*handler)(int)) {
 }  // namespace
 
 EndSignals::EndSignals(const LastFrames& frames, const std::deque<SocketCanPort>& ports) {
-  for (std::size_t i = 0; i < ports.size() && i < g_ports.size(); ++i) {
+  if (ports.size() > g_ports.size()) {
+    error_.set("more than %zu interfaces", g_ports.size());
+    return;
+  }
+  g_ports = {};
+  for (std::size_t i = 0; i < ports.size(); ++i) {
     g_ports[i] = &ports[i];
   }
   g_frames.store(&frames, std::memory_order_release);

@@ -17,17 +17,20 @@ namespace graben::ecu {
 /// whole.
 class LastFrames {
  public:
-  static constexpr std::size_t kMost = 4;
+  /// Of whoever puts frames here the compiler knows whether they fit.
+  static constexpr std::size_t kMost = 32;
   struct Frames {
     std::array<CanFrame, kMost> frame{};
     std::size_t count = 0;
   };
 
-  /// What is beyond kMost is left out.
-  void put(const CanFrame* frames, std::size_t count) {
+  /// The first `count` of `frames`.
+  template <std::size_t size>
+  void put(const std::array<CanFrame, size>& frames, std::size_t count = size) {
+    static_assert(size <= kMost, "none is left out");
     const unsigned other = 1U - current_.load(std::memory_order_relaxed);
     Frames& to = slot_[other];
-    to.count = count < kMost ? count : kMost;
+    to.count = count;
     for (std::size_t i = 0; i < to.count; ++i) {
       to.frame[i] = frames[i];
     }

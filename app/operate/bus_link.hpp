@@ -35,7 +35,7 @@ class BusLink {
   /// `last` is what has to be sent if the process dies before the next call.
   template <class Frames, class LastFrames>
   void send(const Frames& frames, const LastFrames& last) {
-    last_.put(last.data(), last.size());
+    last_.put(last);
     for (const CanFrame& frame : frames) {
       send_one(frame);
     }

@@ -14,6 +14,7 @@
 #include <deque>
 #include <vector>
 
+#include "platform/can_port_group.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 using ecu::EndSignals;
@@ -57,8 +58,8 @@ Ended end_of(const Body& body) {
     good = good && signals.error().empty();
     const std::array<CanFrame, 2> older = {frame_with(1), frame_with(2)};
     const std::array<CanFrame, 2> newer = {frame_with(3), frame_with(4)};
-    last.put(older.data(), older.size());
-    last.put(newer.data(), newer.size());
+    last.put(older);
+    last.put(newer);
     body();
     _exit(good && stop_requested() ? 0 : 1);
   }
@@ -115,9 +116,71 @@ TEST(abort_ends_it_neutral) {
   assert_int_equal(ended.frames, 2);
 }
 
-TEST(more_frames_than_fit_are_left_out) {
+/// As many as a controller with a bus profile may have.
+TEST(none_is_left_out) {
   LastFrames last;
-  std::array<CanFrame, LastFrames::kMost + 1> many;
-  last.put(many.data(), many.size());
-  assert_int_equal(last.get().count, LastFrames::kMost);
+  std::array<CanFrame, LastFrames::kMost> many;
+  for (std::size_t i = 0; i < many.size(); ++i) {
+    many[i] = frame_with(static_cast<std::uint8_t>(i));
+  }
+  last.put(many);
+  assert_int_equal(last.get().count, many.size());
+  assert_int_equal(last.get().frame.back().data[0], many.size() - 1);
+  last.put(many, 7);
+  assert_int_equal(last.get().count, 7);
+}
+
+/// First bytes of what is on a wire.
+std::vector<int> on_wire(int descriptor) {
+  std::vector<int> first;
+  can_frame raw{};
+  while (recv(descriptor, &raw, sizeof raw, MSG_DONTWAIT) == static_cast<ssize_t>(sizeof raw)) {
+    first.push_back(raw.data[0]);
+  }
+  return first;
+}
+
+/// What is for one bus is on no other; what is for any is on all.
+TEST(a_frame_ends_on_the_bus_that_it_is_for) {
+  std::array<std::array<int, 2>, 2> wires{};
+  for (auto& wire : wires) {
+    assert_int_equal(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, wire.data()), 0);
+  }
+  const pid_t child = fork();
+  if (child == 0) {
+    std::deque<SocketCanPort> ports;
+    bool good = true;
+    for (const auto& wire : wires) {
+      g_wire = wire;
+      ports.emplace_back("wire", std::vector<std::uint32_t>{}, &open_wire);
+      good = ports.back().open() && good;
+    }
+    LastFrames last;
+    const EndSignals signals(last, ports);
+    std::array<CanFrame, 4> frames = {frame_with(1), frame_with(2), frame_with(3), frame_with(4)};
+    frames[0].bus = 1;
+    frames[1].bus = 0;
+    frames[3].bus = 2;
+    last.put(frames);
+    raise(good && signals.error().empty() ? SIGSEGV : SIGKILL);
+  }
+  int status = -1;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_int_equal(WTERMSIG(status), SIGSEGV);
+  assert_true(on_wire(wires[0][1]) == (std::vector<int>{2, 3}));
+  assert_true(on_wire(wires[1][1]) == (std::vector<int>{1, 3}));
+  for (const auto& wire : wires) {
+    close(wire[0]);
+    close(wire[1]);
+  }
+}
+
+TEST(more_interfaces_than_there_is_room_for_are_an_error) {
+  std::deque<SocketCanPort> ports;
+  for (std::size_t i = 0; i <= CanPortGroup::kMost; ++i) {
+    ports.emplace_back("wire", std::vector<std::uint32_t>{}, &open_wire);
+  }
+  const LastFrames last;
+  const EndSignals signals(last, ports);
+  assert_string_equal(signals.error().c_str(), "more than 4 interfaces");
 }
