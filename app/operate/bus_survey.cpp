@@ -19,7 +19,7 @@ bool may_be_missing(const dbc::MessageInfo& message, bool has_swing) {
   using namespace dbc::excavator;
   const bool of_swing = message.id == SwingState::kId || message.id == SwingValveState::kId ||
                         message.id == SwingCommand::kId;
-  return message.id == DM1::kId || message.id == TaskStatus::kId || (of_swing && !has_swing);
+  return message.id == DM1::kId || (of_swing && !has_swing);
 }
 
 bool is_operators(const dbc::MessageInfo& message) {

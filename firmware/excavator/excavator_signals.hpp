@@ -146,8 +146,9 @@ struct ExcavatorStatus : MachineStatus {
   /// V_L^d before scaling by lambda; the swing's at its lever, see SwingProfile.
   std::array<double, kDriveCount> wanted_velocity_mps{};
   std::array<double, kPumpCount> pump_pressure_pa{};  ///< P_p that the solution expects.
-  double path_error_m = 0.0;  ///< Distance of the measured tip from the path.
-  double swing_wanted_radps = 0.0;
+  double path_error_m = 0.0;        ///< Distance of the measured tip from the path.
+  double swing_wanted_radps = 0.0;  ///< Of a machine that swings.
+  bool swings = false;
   TaskProgress progress;
   std::array<LearntEdges, kAxisCount> edges{};
   TipLoad tip_load;  ///< Told in every mode.

@@ -194,7 +194,11 @@ bus::TaskStatus task_status(const ExcavatorOutputs& outputs, const EcuDiagnosis&
     message.progress = physical(progress.share);
     message.not_arrived = count(progress.missed);
   }
-  message.swing_wanted_velocity_radps = physical(outputs.status.swing_wanted_radps);
+  if (outputs.status.swings) {
+    message.swing_wanted_velocity_radps = physical(outputs.status.swing_wanted_radps);
+  } else {
+    message.swing_wanted_velocity_radps.state = dbc::RawState::kNotAvailable;
+  }
   return message;
 }
 
@@ -242,7 +246,7 @@ constexpr auto kSendTable = bus_send_table(
     row<bus::PumpCommand, pump_command>(0), ecu_status_row<ExcavatorOutputs>(),
     row<bus::EcuMotion, ecu_motion>(kControlPeriod_us),
     row<bus::EcuHydraulics, ecu_hydraulics>(kControlPeriod_us),
-    row<bus::TaskStatus, task_status>(kControlPeriod_us, &BusParts::swing_drive),
+    row<bus::TaskStatus, task_status>(kControlPeriod_us),
     row<bus::EcuLearntValves, learnt_valves>(4 * kControlPeriod_us),
     row<bus::EcuTipLoad, tip_load>(6 * kControlPeriod_us), ecu_health_row<ExcavatorOutputs>(),
     ecu_identity_row<ExcavatorOutputs, bus::kDbcVersion>());

@@ -64,7 +64,7 @@ class ExcavatorReceiver : public MessageReceiver<ExcavatorReception> {
 ///   SpoolCommand                                        10 ms
 ///   SwingCommand, with a swing drive                    10 ms
 ///   PumpCommand, EcuStatus, EcuMotion, EcuHydraulics    20 ms
-///   TaskStatus, with a swing drive                      20 ms
+///   TaskStatus                                          20 ms
 ///   EcuHealth, EcuLearntValves, EcuTipLoad             100 ms
 ///   EcuIdentity                                          1 s
 ///   DM1                                                as hal/link/dm1.hpp says

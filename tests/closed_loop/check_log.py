@@ -75,7 +75,7 @@ def read_log(path, messages):
 
 
 # Of a machine with a swing drive alone; the 12 t machine's task has them all.
-SWING = ("SwingState", "SwingValveState", "SwingCommand", "TaskStatus")
+SWING = ("SwingState", "SwingValveState", "SwingCommand")
 
 
 # Of an operator's station whose hands move the machine: no run of a task has them.

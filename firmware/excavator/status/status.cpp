@@ -46,6 +46,7 @@ void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const 
                degraded_limit(degraded)});
   status.path_error_m = motion.path_error_m;
   std::copy_n(motion.wanted_mps.data(), kDriveCount, status.wanted_velocity_mps.begin());
+  status.swings = machine.profile.has_swing();
   status.swing_wanted_radps = swing_of(drives_of(machine.profile, motion.wanted_mps));
   status.progress = motion.task.progress;
   std::copy_n(solution.point.pump_pressure_pa.begin(), kPumpCount, status.pump_pressure_pa.begin());

@@ -20,7 +20,7 @@ struct Plan {
 };
 // With the swing's messages, and as a machine without a swing drive has it.
 constexpr Plan kExcavator{0.40, 0.50, 17};
-constexpr Plan kWithoutSwing{0.25, 0.41, 14};
+constexpr Plan kWithoutSwing{0.25, 0.43, 14};
 // With the messages of a tilt and of a track that curves, and without.
 constexpr Plan kDozer{0.30, 0.50, 14};
 constexpr Plan kWithoutTilt{0.30, 0.43, 12};
@@ -33,7 +33,7 @@ constexpr double kBitrate = 500e3;
 
 bool is_of_every_machine(const MessageInfo& message) {
   const std::uint32_t swings[] = {excavator::SwingState::kId, excavator::SwingValveState::kId,
-                                  excavator::SwingCommand::kId, excavator::TaskStatus::kId};
+                                  excavator::SwingCommand::kId};
   return std::find(std::begin(swings), std::end(swings), message.id) == std::end(swings);
 }
 
