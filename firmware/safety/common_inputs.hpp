@@ -75,10 +75,10 @@ void degrade(Fault fault, CommonValid& inputs);
 /// Adds one that is only said.
 void warn(Fault fault, CommonValid& inputs);
 
-/// The operator's speed times `speed_ratio` while anything is degraded, and for 1 s after: a value
-/// that comes and goes must not make the machine jerk. For the same reason the engine counts as
-/// idling for as long as its speed does, and the operator's speed is the least of
-/// the last 0.2 s. Outside motion nothing is slowed or remembered.
+/// The operator's speed times `speed_ratio` while anything is degraded, and for kSlowAfter_s after:
+/// a value that comes and goes must not make the machine jerk. For the same reason the engine
+/// counts as idling for as long as its speed does, and the operator's speed is the least of the
+/// last kOverrideAfter_s. Outside motion nothing is slowed or remembered.
 [[nodiscard]] SlowingState slow_down(double speed_ratio, const SlowingState& last, bool moving,
                                      double period_s, CommonValid& inputs);
 

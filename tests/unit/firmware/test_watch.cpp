@@ -172,8 +172,8 @@ TEST(every_motion_begins_afresh, Machine machine) {
   assert_well(machine.seen);
 }
 
-/// A value that comes and goes does not make the machine jerk: 0.5 s after it has come back the
-/// speed does.
+/// A value that comes and goes does not make the machine jerk: kSlowAfter_s after it has come back
+/// the speed does.
 TEST(what_degraded_goes_on_for_a_second, Machine machine) {
   machine.step();
   for (int round = 0; round < 2; ++round) {
