@@ -35,7 +35,8 @@ struct DozerLastCommands {
 };
 
 /// Adds the watches' faults to `valid`; takes off the operator's speed (`safety.degraded_speed`)
-/// while anything is degraded, and for 0.5 s after. `state` goes on by a cycle. See watch_drives():
+/// while anything is degraded, and for kSlowAfter_s after. `state` goes on by a cycle. See
+/// watch_drives():
 /// the displacements are checked outside motion too, until they have been neutral once or the
 /// operator has taken over in manual mode; what stays stroked when the deadman is let go runs away.
 /// So does, in any mode but manual, a track that runs on though nothing is asked of it
