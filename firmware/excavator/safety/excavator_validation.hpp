@@ -48,9 +48,10 @@ struct SwashState {
 using SwashStates = std::array<SwashState, kPumpCount>;
 
 /// True where a pump's swash has been off its command by more than `safety.swash_tolerance` for
-/// longer than kSwashServo_s, which its servo takes at most; then `swash_ratio`, with which the flow is
-/// reckoned, becomes the smaller of the two. A command that moves is anything from `wanted_ratio`
-/// to where a pump would be that lags behind it by 0.25 s. Not `commanded`, nothing is asked of it.
+/// longer than kSwashServo_s, which its servo takes at most; then `swash_ratio`, with which the
+/// flow is reckoned, becomes the smaller of the two. A command that moves is anything from
+/// `wanted_ratio` to where a pump would be that lags behind it by 0.25 s. Not `commanded`, nothing
+/// is asked of it.
 [[nodiscard]] bool watch_swash(const ExcavatorProfile& profile, bool commanded,
                                const std::array<double, kPumpCount>& wanted_ratio, double period_s,
                                std::array<double, kPumpCount>& swash_ratio, SwashStates& state);
@@ -62,8 +63,8 @@ struct ExcavatorWatchState {
 };
 
 /// Adds the watches' faults to `valid`, and the pumps' flow; takes off the operator's speed
-/// (`safety.degraded_speed`) while anything is degraded, and for kSlowAfter_s after. `state` goes on
-/// by a cycle. `swash_ratio` is what the last cycle told the pumps. See watch_drives().
+/// (`safety.degraded_speed`) while anything is degraded, and for kSlowAfter_s after. `state` goes
+/// on by a cycle. `swash_ratio` is what the last cycle told the pumps. See watch_drives().
 void watch(const ExcavatorProfile& profile, DriveRows drives, const LastCommands<kDriveCount>& last,
            const std::array<double, kPumpCount>& swash_ratio, double period_s,
            ExcavatorWatchState& state, ExcavatorValid& valid);
