@@ -82,12 +82,13 @@ double swing_lead_mps(const ExcavatorProfile& profile, double wanted_mps, double
 
 void next_swing_push(const ValidDrive& swing, double period_s, SwingPush& push) {
   if (!swing.load_known) {
-    push = {};
+    push.known = false;
+    push.unseen_s += period_s;
     return;
   }
   const double now_pa = swing.cap_pressure_pa - swing.rod_pressure_pa;
   if (!push.known) {
-    push = {true, now_pa, now_pa};
+    push = {true, now_pa, push.unseen_s < kSwingPushSlow_s ? push.slow_pa : now_pa, 0.0};
   }
   push.fast_pa += period_s / (period_s + kSwingPushFast_s) * (now_pa - push.fast_pa);
   push.slow_pa += period_s / (period_s + kSwingPushSlow_s) * (now_pa - push.slow_pa);

@@ -7,6 +7,7 @@
 #include "firmware/drives/drive_validation.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/machine/drive_bank.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben {
 
@@ -35,11 +36,13 @@ namespace graben {
                                     double last_wanted_mps, double period_s);
 
 /// What the swing's two sides push the platform with, left less right, low-passed; as constructed
-/// nothing is known.
+/// nothing is known. A pressure that is missing for less than kSwingPushSlow_s leaves the slow one
+/// as it was: of friction, slope and zeros nothing has changed.
 struct SwingPush {
-  bool known = false;
+  bool known = false;  ///< Now.
   double fast_pa = 0.0;
-  double slow_pa = 0.0;  ///< With friction, slope and the sensors' zeros.
+  double slow_pa = 0.0;         ///< With friction, slope and the sensors' zeros.
+  double unseen_s = kInfinity;  ///< So long it has not been known.
 };
 void next_swing_push(const ValidDrive& swing, double period_s, SwingPush& push);
 

@@ -269,3 +269,31 @@ TEST(a_task_that_is_none_of_ours_is_refused) {
     }
   }
 }
+
+/// Friction and slope are learnt within seconds, and stay where a pressure is missing for less.
+TEST(a_missing_pressure_forgets_no_slope) {
+  ValidDrive swing;
+  swing.load_known = true;
+  swing.cap_pressure_pa = 6e6;
+  SwingPush push;
+  const auto cycles = [&](int count) {
+    repeat(count, [&] { next_swing_push(swing, 0.01, push); });
+  };
+  cycles(1);
+  assert_true(push.known);
+  swing.cap_pressure_pa = 9e6;
+  const auto miss = [&](int count) {
+    swing.load_known = false;
+    cycles(count);
+    assert_false(push.known);
+    assert_near(swing_damping_mps(profile(), push), 0.0, 0.0);
+    swing.load_known = true;
+    cycles(1);
+  };
+  miss(1);
+  assert_near(push.fast_pa, 9e6, 0.0);
+  assert_near(push.slow_pa, 6e6, 0.1e6);
+  assert_true(std::abs(swing_damping_mps(profile(), push)) > 0.0);
+  miss(250);
+  assert_near(push.slow_pa, 9e6, 0.0);
+}
