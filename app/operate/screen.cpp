@@ -160,6 +160,7 @@ void put_controller(std::vector<std::string>& lines, const View& view) {
   put(lines, "Fault", runs::fault_words(fault));
   if (fault != Fault::kNone) {
     put(lines, "", runs::fault_help(fault));
+    put(lines, "", runs::pilot_words(fault));
   }
   if (const std::string also = also_text(ecu, view.now_us); !also.empty()) {
     put(lines, "Also", also);

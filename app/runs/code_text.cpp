@@ -93,6 +93,26 @@ const char* fault_help(Fault fault) {
   return row != nullptr ? row->help : "";
 }
 
+const char* pilot_words(Fault fault) {
+  const FaultText* row = row_of(kFaultTexts, fault);
+  switch (row != nullptr ? row->pilot : PilotAfter::kStays) {
+    case PilotAfter::kStays:
+      break;
+    case PilotAfter::kLater:
+      return "The pilot pressure goes 1 s later; it is back in Manual with enable released, or "
+             "armed "
+             "again.";
+    case PilotAfter::kAtOnce:
+      return "The pilot pressure goes at once; it is back in Manual with enable released, or armed "
+             "again.";
+    case PilotAfter::kKept:
+      return "The pilot pressure goes at once and is back only when armed again.";
+    case PilotAfter::kByMotion:
+      return "The pilot pressure goes at once; after motion it is back only when armed again.";
+  }
+  return "";
+}
+
 const char* mode_words(EcuMode mode) {
   switch (mode) {
     case EcuMode::kSilent:

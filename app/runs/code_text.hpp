@@ -13,10 +13,12 @@
 
 namespace graben::runs {
 
-/// "a stroke is missing", ...; "none" for kNone.
+/// "a stroke or angle is missing", ...; "none" for kNone.
 [[nodiscard]] const char* fault_words(Fault fault);
 /// What the operator should do about it; empty for kNone.
 [[nodiscard]] const char* fault_help(Fault fault);
+/// When the pilot pressure goes by it, and how it comes back; empty where it does not go.
+[[nodiscard]] const char* pilot_words(Fault fault);
 
 /// ", node 17 has emergency 5010h (device hardware)"; empty where there is none.
 [[nodiscard]] std::string emergency_words(const NodeEmergency& emergency);

@@ -12,6 +12,9 @@ FIRST_SPN = 520192
 KINDS = ("excavator", "dozer")
 FMIS = {2: "erratic", 7: "not responding", 9: "abnormal update rate", 10: "abnormal rate of change", 12: "bad device",
         14: "special instructions", 19: "received network data in error", 31: "condition exists"}
+# What becomes of the pilot pressure.
+PILOT = {"stays": "-", "later": "cut 1 s later", "at once": "cut at once", "kept": "cut at once, kept",
+         "by motion": "cut at once, kept after motion"}
 INDICES = ("", "pump", "drive", "fault", "track", "fence")
 _NAME = re.compile(r"[A-Z][A-Za-z0-9]*")
 
@@ -32,6 +35,7 @@ class Fault:
     fmi: int
     blocks: str
     cuts_pilot: bool
+    pilot: str
     kinds: tuple[str, ...]
 
     @property
@@ -116,11 +120,16 @@ def _fault(where: str, name: str, values: dict, blocks: tuple[str, ...]) -> Faul
     fault = Fault(name, row.take("code", int), row.text("doc"), row.text("text"), row.text("help"),
                   does.take("reaction", str, ("stop", "degrade", "warn")), does.take("lamp", str, ("red", "amber")),
                   does.take("fmi", int, tuple(FMIS)), does.take("blocks", str, blocks),
-                  does.take("cuts", str, ("pilot",), default="") == "pilot", tuple(kinds))
+                  does.take("cuts", str, ("pilot",), default="") == "pilot",
+                  does.take("pilot", str, tuple(PILOT)), tuple(kinds))
     row.end()
     does.end()
     if fault.cuts_pilot and fault.reaction != "stop":
         raise row.error("what cuts the pilot pressure stops")
+    if (fault.pilot == "stays") != (fault.reaction != "stop"):
+        raise row.error("the pilot pressure goes after every stop, and after nothing else")
+    if fault.cuts_pilot and fault.pilot not in ("kept", "by motion"):
+        raise row.error("what the spools do not obey keeps the pilot pressure cut")
     return fault
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from .codes import FMIS, KINDS, ArmBlock, Codes, Fault, Limit
+from .codes import FMIS, KINDS, PILOT, ArmBlock, Codes, Fault, Limit
 
 BEGIN, END = "<!-- faults: begin -->", "<!-- faults: end -->"
 _HEAD = """\
@@ -61,17 +61,25 @@ def rows(codes: Codes) -> str:
         + "\n".join(map(_row, codes.faults)) + "\n}};\n\n}  // namespace graben\n")
 
 
+def _pilot(after: str) -> str:
+    return "k" + "".join(word.capitalize() for word in after.split())
+
+
 def texts(codes: Codes) -> str:
     def table(name: str, kind: str, lines: list[str]) -> str:
         return f"inline constexpr std::array<{kind}, {len(lines)}> {name}{{{{\n" + "\n".join(lines) + "\n}};\n\n"
 
     return (
         _head("Texts of faults, arm conditions and limits, by their numbers.", ("<array>",), "graben::runs")
-        + "struct FaultText {\n  const char* text;\n  const char* help;  ///< What to do.\n};\n\n"
+        + "/// What becomes of the pilot pressure, as faults.toml says.\n"
+        + f"enum class PilotAfter {{ {', '.join(map(_pilot, PILOT))} }};\n\n"
+        + "struct FaultText {\n  const char* text;\n  const char* help;  ///< What to do.\n"
+        + "  PilotAfter pilot;\n};\n\n"
         + "enum class LimitOf { kNothing, kPump, kDrive, kFault, kTrack, kFence };\n\n"
         + "struct LimitText {\n  const char* text;\n  LimitOf of;  ///< Whose number the limit's index is.\n};\n\n"
-        + table("kFaultTexts", "FaultText", ['    {"none", ""},',
-                *(f'    {{"{fault.text}",\n     "{fault.help}"}},' for fault in codes.faults)])
+        + table("kFaultTexts", "FaultText", ['    {"none", "", PilotAfter::kStays},',
+                *(f'    {{"{fault.text}",\n     "{fault.help}", PilotAfter::{_pilot(fault.pilot)}}},'
+                  for fault in codes.faults)])
         + table("kArmBlockTexts", "const char*", [f'    "{block.text}",' for block in codes.arm_blocks])
         + table("kLimitTexts", "LimitText", ['    {"none", LimitOf::kNothing},',
                 *(f'    {{"{limit.text}", LimitOf::k{limit.of.capitalize() or "Nothing"}}},'
@@ -91,9 +99,8 @@ def limits_of_page(codes: Codes) -> str:
 
 def _fault_line(fault: Fault) -> str:
     kinds = "all" if fault.kinds == KINDS else ", ".join(fault.kinds)
-    reaction = fault.reaction + (", pilot cut" if fault.cuts_pilot else "")
-    return (f"| {fault.code} | `{fault.name}` | {fault.text} | {reaction} | {fault.lamp} | {fault.fmi} "
-            f"({FMIS[fault.fmi]}) | {fault.spn} | {fault.blocks} | {kinds} | {fault.help} |")
+    return (f"| {fault.code} | `{fault.name}` | {fault.text} | {fault.reaction} | {PILOT[fault.pilot]} | {fault.lamp} "
+            f"| {fault.fmi} ({FMIS[fault.fmi]}) | {fault.spn} | {fault.blocks} | {kinds} | {fault.help} |")
 
 
 def _short_line(row: ArmBlock | Limit) -> str:
@@ -103,8 +110,8 @@ def _short_line(row: ArmBlock | Limit) -> str:
 def readme_part(codes: Codes) -> str:
     """Between the markers, without them."""
     return "\n".join([
-        "| code | fault | text | reaction | lamp | FMI | SPN | blocks | kinds | what to do |",
-        "|---|---|---|---|---|---|---|---|---|---|", *map(_fault_line, codes.faults), "",
+        "| code | fault | text | reaction | pilot pressure | lamp | FMI | SPN | blocks | kinds | what to do |",
+        "|---|---|---|---|---|---|---|---|---|---|---|", *map(_fault_line, codes.faults), "",
         "Reasons in `EcuHealth.WhyNotArmed`, by bit:", "",
         "| bit | reason | text |", "|---|---|---|", *map(_short_line, codes.arm_blocks), "",
         "What holds lambda, `EcuStatus.LimitKind`:", "",

@@ -187,8 +187,8 @@ async function fault_by_button() {
   await page.locator('[data-fault="stroke-silent"]').click();
   await page.waitForFunction(() => window.grabenScope.mode() === 'Fault');
   const words = await alarm(page, 'fault');
-  assert.match(words, /Stopped by fault 1: a stroke is missing/);
-  assert.match(await page.locator('ol.faults').textContent(), /1a stroke is missing/);
+  assert.match(words, /Stopped by fault 1: a stroke or angle is missing/);
+  assert.match(await page.locator('ol.faults').textContent(), /1a stroke or angle is missing/);
   const {BoomDuty, ArmDuty, BucketDuty, Enable} = await values_of(page, 'SpoolCommand');
   assert.deepEqual([BoomDuty, ArmDuty, BucketDuty, Enable], [0, 0, 0, 0]);
   const shown = await until('the table shows it', async () => {

@@ -109,6 +109,7 @@ TEST(every_fault_fits_with_what_to_do) {
     say_status(ecu, EcuMode::kFault, fault);
     const std::string text = text_of(view_of(ecu));
     check_has(text, std::string(runs::fault_help(fault)).substr(0, 8));
+    check_has(text, std::string(runs::pilot_words(fault)).substr(0, 18));
     check_has(operate::state_line(view_of(ecu)), runs::fault_words(fault));
   }
 }

@@ -8,7 +8,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/runs/code_text.hpp"
 #include "app/runs/plant_faults.hpp"
+#include "firmware/safety/cycle.hpp"
+#include "firmware/safety/fault_table.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/refusal.hpp"
@@ -108,4 +111,64 @@ void each_acts(const PlantFaultTable<Faults>& table) {
 TEST(every_name_acts) {
   each_acts(excavator_plant_faults());
   each_acts(dozer_plant_faults());
+}
+
+FaultSet only(Fault fault) {
+  FaultSet faults;
+  faults.add(fault);
+  return faults;
+}
+
+/// The pilot pressure through a stop by a fault, in motion or at rest, until the operator has the
+/// machine by hand and the fault is gone.
+struct Stop {
+  bool at_once = false;
+  bool later = false;
+  bool lasts = false;    ///< The fault gone.
+  bool by_hand = false;  ///< In the operator's hands then.
+};
+
+Stop stop_by(Fault fault, const PilotState& before, bool in_motion) {
+  const ModeState mode = in_motion ? ModeState{EcuMode::kFault, fault} : ModeState{EcuMode::kReady};
+  Stop stop;
+  PilotResult pressure = pilot(before, mode, only(fault), false, 0.01);
+  stop.at_once = pressure.cut;
+  for (int n = 0; n < 120; ++n) {
+    pressure = pilot(pressure.state, mode, only(fault), false, 0.01);
+  }
+  stop.later = pressure.cut;
+  stop.lasts = pilot(pressure.state, {EcuMode::kReady, Fault::kNone}, {}, false, 0.01).cut;
+  stop.by_hand = pilot(pressure.state, {EcuMode::kReady, Fault::kNone}, {}, true, 0.01).cut;
+  return stop;
+}
+
+/// What is told of each fault is what the controller does.
+TEST(the_pilot_pressure_goes_and_comes_back_as_it_is_told) {
+  const auto told = [](Fault fault, Fault like) {
+    return std::strcmp(pilot_words(fault), pilot_words(like)) == 0;
+  };
+  for (int code = 0; code < kFaultCount; ++code) {
+    const auto fault = static_cast<Fault>(code);
+    if (fault_row(fault).reaction != Reaction::kStop) {
+      assert_string_equal(pilot_words(fault), "");
+      continue;
+    }
+    CycleMemory memory;
+    if (fault == Fault::kMemoryCorrupt) {
+      static_cast<void>(begin_cycle(memory, false, 0));
+    }
+    const Stop moving = stop_by(fault, memory.pilot, true);
+    const Stop resting = stop_by(fault, memory.pilot, false);
+    assert_true(moving.later);
+    if (moving.by_hand) {
+      assert_true(moving.at_once);
+      assert_true(told(fault, resting.lasts && !resting.by_hand ? Fault::kUncommandedMotion
+                                                                : Fault::kSpoolStuck));
+    } else {
+      assert_true(told(fault, moving.at_once ? Fault::kSpoolMissing : Fault::kStrokeMissing));
+    }
+  }
+  assert_false(told(Fault::kSpoolStuck, Fault::kUncommandedMotion));
+  assert_false(told(Fault::kSpoolMissing, Fault::kStrokeMissing));
+  assert_false(told(Fault::kSpoolMissing, Fault::kSpoolStuck));
 }
