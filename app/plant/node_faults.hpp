@@ -73,9 +73,17 @@ struct ReadingFault {
 
   ReadingFault() = default;
   explicit ReadingFault(const StrokeFault& fault)
-      : stuck(fault.stuck), jump(fault.jump_m), drift_ps(fault.drift_mps), state(fault.state), lie(fault.lie) {}
+      : stuck(fault.stuck),
+        jump(fault.jump_m),
+        drift_ps(fault.drift_mps),
+        state(fault.state),
+        lie(fault.lie) {}
   explicit ReadingFault(const AngleFault& fault)
-      : stuck(fault.stuck), jump(fault.jump_rad), drift_ps(fault.drift_radps), state(fault.state), lie(fault.lie) {}
+      : stuck(fault.stuck),
+        jump(fault.jump_rad),
+        drift_ps(fault.drift_radps),
+        state(fault.state),
+        lie(fault.lie) {}
 };
 
 /// A sensor that can fail. A reading is taken once a cycle of 10 ms.

@@ -39,9 +39,7 @@ void add_sensor(const std::string& name, const Find& find, PlantFaultTable<Fault
     find(faults).stuck = true;
     find(faults).lie.noise = value;
   };
-  table[name + ":gain"] = [find](Faults& faults, double value) {
-    find(faults).lie.gain = value;
-  };
+  table[name + ":gain"] = [find](Faults& faults, double value) { find(faults).lie.gain = value; };
   table[name + ":scale"] = [find](Faults& faults, double value) {
     find(faults).lie.gain = value;
     find(faults).lie.from_zero = true;

@@ -26,6 +26,13 @@ FaultSet watch_moving(DriveRows drives, const DriveCommands& last, Span<const Va
     }
   }
   FaultSet stops = watch_motion(drives, seen, must_mps, period_s, state.motion);
+  for (int i = 0; i < drives.count(); ++i) {
+    const BlockedState& blocked = state.blocked[i];
+    const bool held = blocked.strains || blocked.side != 0 || blocked.less > 0.0;
+    if (watch_way(drives[i], seen[i], {last.ask.asked_mps[i], held}, period_s, state.way[i])) {
+      stops.add(Fault::kMotionImplausible);
+    }
+  }
   stops.add(watch_direction(drives, seen, state.direction));
   return stops;
 }
@@ -101,12 +108,14 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
   if (any_eases(state.blocked)) {
     // Through the linkage the others' oil lets off as well.
     std::fill(state.flow.begin(), state.flow.end(), FlowState{});
+    std::fill(state.way.begin(), state.way.end(), WayState{});
   }
   if (by_model) {
     stops.add(watch_flow(drives, seen, state.learnt, valid.engine_radps, period_s, state.flow));
   } else {
     std::fill(state.blocked.begin(), state.blocked.end(), BlockedState{});
     std::fill(state.motion.begin(), state.motion.end(), MotionState{});
+    std::fill(state.way.begin(), state.way.end(), WayState{});
     std::fill(state.direction.begin(), state.direction.end(), DirectionState{});
     std::fill(state.flow.begin(), state.flow.end(), FlowState{});
   }

@@ -11,6 +11,7 @@
 #include "firmware/drives/motion_watch.hpp"
 #include "firmware/drives/rest_watch.hpp"
 #include "firmware/drives/spool_watch.hpp"
+#include "firmware/drives/way_watch.hpp"
 #include "firmware/safety/common_inputs.hpp"
 
 namespace graben {
@@ -61,6 +62,7 @@ struct DriveWatchState {
   std::array<BlockedState, kMost> blocked{};
   std::array<MotionState, kMost> motion{};
   std::array<RestState, kMost> rest{};
+  std::array<WayState, kMost> way{};
   std::array<DirectionState, kMost> direction{};
   std::array<FlowState, kMost> flow{};
   std::array<LearntValve, kLearnt> learnt{};  ///< Kept when the machine stands.
@@ -79,6 +81,7 @@ struct DriveWatchView {
         blocked(state.blocked),
         motion(state.motion),
         rest(state.rest),
+        way(state.way),
         direction(state.direction),
         flow(state.flow),
         learnt(state.learnt),
@@ -91,6 +94,7 @@ struct DriveWatchView {
   Span<BlockedState> blocked;
   Span<MotionState> motion;
   Span<RestState> rest;
+  Span<WayState> way;
   Span<DirectionState> direction;
   Span<FlowState> flow;
   Span<LearntValve> learnt;

@@ -80,6 +80,7 @@ DriveRow cylinder_row(const ExcavatorProfile& profile, int axis, double leverage
   row.watch.off_m = std::clamp(kStrokeOffTip_m / leverage, kStrokeOffLeast_m, kStrokeOffMost_m) +
                     (profile.foretells_joints() ? kForetoldShaken_m : 0.0);
   row.watch.unseen_m = kStrokeUnseenShare * row.watch.off_m;
+  row.watch.way_m = std::clamp(kStrokeWayTip_m / leverage, kStrokeWayLeast_m, kStrokeWayMost_m);
   return row;
 }
 

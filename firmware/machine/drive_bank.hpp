@@ -62,6 +62,7 @@ struct DriveWatch {
   // 0: its flow is not watched.
   double unseen_m = 0.0;          ///< That its oil moves a drive whose stroke stands still.
   double off_m = 0.0;             ///< Of a stroke from all that its oil can have done.
+  double way_m = 0.0;             ///< Of a stroke from what was asked; 0: not watched.
   double still_mps = 0.0;         ///< Below it a motor stands; of a motor only.
   double leak_mpspa = 0.0;        ///< Speed that it may lose by its own leakage, per pressure.
   double rest_s = 0.0;            ///< Until it has come to rest after its spool has closed.

@@ -17,7 +17,7 @@ Rows<Excavator> own_rows(const Excavator&) {
   for (const Row<Excavator>& row : sold_rows()) {
     rows.push_back(row);
   }
-  for (const Row<Excavator>& row : swap_rows()) {
+  for (const Row<Excavator>& row : stroke_rows()) {
     rows.push_back(row);
   }
   for (const Row<Excavator>& row : tilt_rows(Excavator())) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows 55, 58 and 59: a sensor shows what its drive does not do. The truth is the plant's tool,
+// Rows 55, 58, 59 and 82: a sensor shows what its drive does not do. The truth is the plant's tool,
 // against the one that the strokes which the controller hears would have.
 
 #include <fmt/format.h>
@@ -241,6 +241,18 @@ void drifts(Trial<Kind>& trial) {
               kDriftOff_m, true);
 }
 
+/// It stands and goes on to noise, as a sensor does whose magnet or float has come loose.
+void frozen_with_noise(Trial<Excavator>& trial) {
+  constexpr double kMostOff_m = 1.2;
+  trial.work();
+  ToolOff<Excavator> off(*trial.rig);
+  plant::StrokeFault& stroke = Excavator::axis(trial.rig->plant, fast_axis(trial)).stroke;
+  stroke.stuck = true;
+  stroke.lie.noise = 0.0007;
+  expect_seen(trial, off, {Fault::kStrokeStuck, Fault::kMotionImplausible}, 8 * kSecondUs,
+              kMostOff_m);
+}
+
 }  // namespace
 
 template <class Kind>
@@ -252,6 +264,9 @@ Rows<Kind> motion_rows() {
 template Rows<Excavator> motion_rows();
 template Rows<Dozer> motion_rows();
 
-Rows<Excavator> swap_rows() { return {{55, "two strokes' sensors are swapped", "N L", swapped}}; }
+Rows<Excavator> stroke_rows() {
+  return {{55, "two strokes' sensors are swapped", "N L", swapped},
+          {82, "a stroke's sensor freezes and goes on to noise", "N L", frozen_with_noise}};
+}
 
 }  // namespace graben::faults

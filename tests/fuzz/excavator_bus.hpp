@@ -31,7 +31,7 @@ struct ExcavatorBus : ecu::ExcavatorKind {
   /// Whether its values may be not available.
   [[nodiscard]] static bool may_miss(std::uint32_t id) {
     return id == Dbc::PumpCommand::kId || id == Dbc::EcuLearntValves::kId ||
-           id == Dbc::EcuTipLoad::kId;
+           id == Dbc::EcuTipLoad::kId || id == Dbc::TaskStatus::kId;
   }
   [[nodiscard]] static std::array<double, kSpools> duties(const Dbc::SpoolCommand& command);
   /// The duty at which a spool begins to open.

@@ -230,12 +230,15 @@ TEST(a_swing_that_turns_by_itself_is_neutral, Digging digging) {
   // When one at full speed would have come to rest, half a second for the oil, and a second.
   const double stopped_s = swing.speed_max_radps / swing.acceleration_max_radps2 + 1.5;
   double angle_rad = 0.0;
+  std::array<double, kAxisCount> way_m{};
   for (int n = 0; n < 3000 && digging.outputs.status.mode == EcuMode::kActive; ++n) {
     ExcavatorInputs inputs = digging.inputs();
     angle_rad += 0.01 * n > stopped_s ? 0.002 : 0.0;
     inputs.swing.angle_rad.value = angle_rad;
-    for (AxisInputs& axis : inputs.axis) {
-      axis.stroke_m.value += 0.001 * (n % 2);
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      const ExcavatorStatus& status = digging.outputs.status;
+      way_m[i] += 0.01 * status.lambda * status.wanted_velocity_mps[i];
+      inputs.axis[i].stroke_m.value += way_m[i];
     }
     digging.step(inputs);
   }
