@@ -204,8 +204,7 @@ inline constexpr double kFlowHose_m = 0.15;
 /// Newest pressure's share of the low-pass. [-; chosen: most of the noise is gone after 30 ms; not
 /// tried]
 inline constexpr double kFlowPressureShare = 0.3;
-/// Change of a stroke up to which it stands. [m; chosen: more than the sensor's resolution and
-/// noise; not tried]
+/// Change of a stroke up to which it stands. [m; chosen: more than resolution and noise; not tried]
 inline constexpr double kFlowStill_m = 0.0003;
 /// Time constant with which what a stroke is off is forgotten. [s; chosen: not tried]
 inline constexpr double kFlowForget_s = 10.0;
@@ -343,17 +342,15 @@ inline constexpr double kParkingWithin = 0.7;
 
 // A drive's way against what was asked (way_watch.cpp)
 
-/// Share by which a drive may be slower and faster than it was asked to be. [-; chosen: 0.1 to 0.4
-/// tried with `lie_cases`: without a lie no drive of 160 draws comes to its bound with any; with
-/// 0.15 and less more of a sensor's gain is seen, and a valve that is not learnt yet is as far off]
+/// Share by which a drive may be slower and faster than it was asked. [-; chosen: 0.1 to 0.4 tried,
+/// no healthy drive of 160 comes to its bound; 0.15 sees more of a gain]
 inline constexpr double kWayBand = 0.2;
-/// Share of its fastest by which it may be so, however little is asked. [-; chosen: 0 tried, with
-/// which a bucket at a tenth of full speed comes to 105 mm by its dead band]
+/// Share of its fastest by which it may too. [-; chosen: 0 tried, a bucket is 105 mm off]
 inline constexpr double kWayCreeps = 0.01;
 /// Time constant with which a difference is forgotten. [s; chosen: 4 and 10 tried]
 inline constexpr double kWayForget_s = 6.0;
-/// Share of its line's relief with which a drive presses that its load slows. [-; chosen: 0.5 and
-/// 0.7 tried: an arm in soil falls 24 and 31 mm short, 18 with this]
+/// Share of its relief with which its load may slow it. [-; chosen: an arm in soil falls 18 mm
+/// short; 0.5 and 0.7 tried, 24 and 31 mm]
 inline constexpr double kWayPresses = 0.35;
 
 // Watch over drives at rest (rest_watch.cpp)
@@ -366,8 +363,8 @@ inline constexpr double kRestNear_m = 0.01;
 inline constexpr double kRestStill = 0.3;
 /// Time constant of that low-pass. [s; chosen: noise of 20 frames; not tried]
 inline constexpr double kRestCalm_s = 0.2;
-/// Time for which a drive that was seen to move has to stand before its place counts as its rest.
-/// [s; chosen: 5 tried, with which nobody could arm for so long after a sensor's jump]
+/// Time for which what was seen to move has to stand until that is its rest. [s; chosen: 5 tried,
+/// with which nobody could arm for so long after a sensor's jump]
 inline constexpr double kRestStands_s = 1.0;
 /// Least time for which a drive is away from its rest before it is seen to move. [s; chosen: a
 /// value that is wrong for some frames is no motion; not tried]
