@@ -157,7 +157,7 @@ LieOutcome run(const LieCase& lie, const typename Kind::Scenery& scenery, Task t
 }  // namespace
 
 const std::vector<std::string>& machines() {
-  static const std::vector<std::string> names = {"22t", "12t", "retrofit", "zx200", "dozer"};
+  static const std::vector<std::string> names = {"22t", "12t", "retrofit", "dozer"};
   return names;
 }
 

@@ -26,7 +26,7 @@ struct LieOutcome {
   double off = 0.0;
 };
 
-/// 22t, 12t (a task with swing), retrofit, zx200, dozer.
+/// 22t, 12t (a task with swing), retrofit (22t on that bus), dozer.
 [[nodiscard]] const std::vector<std::string>& machines();
 
 /// Throws std::runtime_error for a machine or fault that there is not.
