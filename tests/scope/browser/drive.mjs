@@ -319,10 +319,12 @@ async function bad_logs() {
   const identity = /( (?:18FF3482|0CFF3080)#)([0-9A-F]{8})([0-9A-F]{2})(?=[0-9A-F]{4}FF$)/gm;
   const version = Number.parseInt(/ 18FF3482#[0-9A-F]{8}([0-9A-F]{2})/.exec(log)[1], 16);
   const byte = (value) => value.toString(16).toUpperCase().padStart(2, '0');
-  const older = log.replace(identity, `$1$2${byte(version - 1)}`);
+  // Older than the oldest that the page reads, which is the one before this.
+  const older = log.replace(identity, `$1$2${byte(version - 2)}`);
   assert.notEqual(older, log);
   assert.match(await shown('older.log', older, 'dbc'), new RegExp(
-    `Written with DBC version ${version - 1}, this page reads version ${version}: values may be wrong`));
+    `Written with DBC version ${version - 2}, this page reads versions ${version - 1} to ${version}: `
+    + 'values may be wrong'));
   const other = log.replace(identity, '$1DEADBEEF$3');
   assert.match(await shown('other.log', other, 'profile'),
     /No profile with hash 0xEFBEADDE is known here/i);
