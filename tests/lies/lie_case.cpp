@@ -47,46 +47,51 @@ void apply(const runs::PlantFaultTable<Faults>& table, const std::vector<std::st
   }
 }
 
-/// How far the truth is off, as the lie's row counts it.
+/// How far the truth is off, as the lie's row counts it. From the stop on what is shown stays as it
+/// was then: only what still moves counts.
 class ExcavatorOff {
  public:
   ExcavatorOff(const LieCase& lie, const Rig<Excavator>& rig)
       : rig_(rig),
         of_swing_(std::any_of(lie.faults.begin(), lie.faults.end(),
                               [](const auto& name) { return name.rfind("swing-angle", 0) == 0; })) {
+    hear();
     if (!lie.from_start) {
-      bias_m_ = heard_m() - true_m();
-      swing_bias_rad_ = swing_rad();
+      bias_m_ = heard_m_ - true_m();
+      swing_bias_rad_ = heard_rad_ - rig_.plant.plant().swing_rad();
     }
+  }
+  void hear() {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      if (rig_.ecu->inputs().axis[i].stroke_m.validity == Validity::kValid) {
+        heard_m_[i] = Excavator::heard_stroke_m(rig_.ecu->inputs(), i);
+      }
+    }
+    heard_rad_ = rig_.ecu->inputs().swing.angle_rad.value;
   }
   [[nodiscard]] double now() const {
     if (of_swing_) {
-      return std::abs(swing_rad() - swing_bias_rad_);
+      return std::abs(heard_rad_ - swing_bias_rad_ - rig_.plant.plant().swing_rad());
     }
     const ExcavatorKinematics kinematics(rig_.machine.profile.geometry);
-    const TipPose shown = kinematics.state(heard_m() - bias_m_).tip;
+    Eigen::Vector3d shown_m = heard_m_ - bias_m_;
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      shown_m[i] = std::clamp(shown_m[i], 0.0, rig_.machine.profile.geometry.cylinder[i].stroke_m);
+    }
+    const TipPose shown = kinematics.state(shown_m).tip;
     const TipPose is = kinematics.state(true_m()).tip;
     return std::hypot(shown.x_m - is.x_m, shown.y_m - is.y_m);
   }
 
  private:
-  [[nodiscard]] Eigen::Vector3d heard_m() const {
-    Eigen::Vector3d strokes_m;
-    for (unsigned i = 0; i < kAxisCount; ++i) {
-      strokes_m[i] = Excavator::heard_stroke_m(rig_.ecu->inputs(), i);
-    }
-    return strokes_m;
-  }
   [[nodiscard]] Eigen::Vector3d true_m() const {
     const auto strokes_m = rig_.plant.plant().strokes_m();
     return {strokes_m[0], strokes_m[1], strokes_m[2]};
   }
-  /// Shown against true.
-  [[nodiscard]] double swing_rad() const {
-    return rig_.ecu->inputs().swing.angle_rad.value - rig_.plant.plant().swing_rad();
-  }
   const Rig<Excavator>& rig_;
   bool of_swing_;
+  Eigen::Vector3d heard_m_ = Eigen::Vector3d::Zero();
+  double heard_rad_ = 0.0;
   Eigen::Vector3d bias_m_ = Eigen::Vector3d::Zero();
   double swing_bias_rad_ = 0.0;
 };
@@ -95,6 +100,7 @@ class DozerOff {
  public:
   DozerOff(const LieCase& /*lie*/, const Rig<Dozer>& rig)
       : rig_(rig), truth_(rig.machine.profile) {}
+  void hear() {}  // Against the design it counts by itself.
   [[nodiscard]] double now() const {
     const plant::DozerPlant& plant = rig_.plant.plant();
     const double tilt_rad = plant.tilt() ? plant.tilt()->angle_rad() : 0.0;
@@ -135,11 +141,12 @@ LieOutcome run(const LieCase& lie, const typename Kind::Scenery& scenery, Task t
     outcome.works = rig.mode() == EcuMode::kActive;
     begin();
   }
-  const Off off(lie, rig);
+  Off off(lie, rig);
   const TimeUs since_us = rig.at_us();
   const auto look = [&] { outcome.off = std::max(outcome.off, off.now()); };
   const double looked_s = std::min(kLookedFor_s / lie.speed_ratio, kLongest_s);
   const bool seen = rig.run_until(microseconds(looked_s), [&] {
+    off.hear();
     look();
     return rig.mode() == EcuMode::kFault;
   });

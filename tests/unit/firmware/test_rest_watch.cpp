@@ -140,6 +140,14 @@ TEST(at_the_start_its_fastest_is_explained, Resting drive) {
   assert_near(runs_on.seen_after_m(0.4), 0.05 + 1.3 * 0.4 * rest_bounds(drive.row).coast_s, 0.01);
 }
 
+/// Once it was asked, that is what counts.
+TEST(what_it_was_asked_for_is_not_its_fastest, Resting drive) {
+  drive.row.watch.fastest_mps = 0.4;
+  drive.ask(0.0);
+  drive.move(0.0);
+  assert_near(drive.seen_after_m(0.1), 0.05, 0.004);
+}
+
 /// What is asked may be anything that a division gave.
 TEST(what_is_not_finite_explains_nothing, Resting drive) {
   drive.ask(std::nan(""));
@@ -176,8 +184,7 @@ TEST(what_the_operator_gives_back_may_settle, Resting drive) {
   assert_int_equal(drive.verdict, RestVerdict::kMoves);
   drive.seen.by_hand = false;
   Resting runs_on = drive;
-  drive.move_for(0.2, 0.1);
-  drive.move_for(0.0, 5.0);
+  drive.move_for(0.2, 0.4);
   assert_int_equal(drive.verdict, RestVerdict::kRests);
   runs_on.move_for(0.2, 0.1);
   assert_int_equal(runs_on.verdict, RestVerdict::kRests);
