@@ -35,7 +35,7 @@ def tried(binary: pathlib.Path, row: dict, fault: str, speed: float, seeds: int)
 def together(of_faults: list[dict]) -> dict:
     """Of all faults of a row: counts, the middle of the medians, the worst."""
     medians = sorted(one["seen_s"][0] for one in of_faults if one["seen"])
-    offs = sorted(one["off"][0] for one in of_faults)
+    offs = sorted(one["off"][0] for one in of_faults if one["worked"])
     return {"tried": sum(one["tried"] for one in of_faults), "seen": sum(one["seen"] for one in of_faults),
             "worked": sum(one["worked"] for one in of_faults),
             "median_s": medians[len(medians) // 2] if medians else None,
@@ -44,7 +44,9 @@ def together(of_faults: list[dict]) -> dict:
 
 
 def cell(of: dict) -> str:
-    share = f"{of['seen']} of {of['tried']}" if of["seen"] < of["tried"] else "all"
+    share = f"{of['seen']} of {of['worked']}" if of["seen"] < of["worked"] else "all"
+    if of["worked"] < of["tried"]:
+        share += f" ({of['tried'] - of['worked']} stopped before it)"
     times = "" if of["median_s"] is None else f", {of['median_s']:.1f} / {of['worst_s']:.1f} s"
     return f"{share}{times}; {of['median_off']:.2f} / {of['worst_off']:.2f}"
 

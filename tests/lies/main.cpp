@@ -26,7 +26,10 @@ void print_summary(const std::vector<LieOutcome>& outcomes) {
   std::vector<double> off;
   int works = 0;
   for (const LieOutcome& outcome : outcomes) {
-    works += outcome.works ? 1 : 0;
+    if (!outcome.works) {
+      continue;  // What had stopped by itself before says nothing of the lie.
+    }
+    ++works;
     off.push_back(outcome.off);
     if (outcome.seen_s >= 0.0) {
       seen_s.push_back(outcome.seen_s);
@@ -37,7 +40,7 @@ void print_summary(const std::vector<LieOutcome>& outcomes) {
       "{{\"tried\": {}, \"worked\": {}, \"seen\": {}, \"seen_s\": [{:.2f}, {:.2f}], \"off\": "
       "[{:.3f}, {:.3f}]}}\n",
       outcomes.size(), works, seen_s.size(), middle(seen_s), last_s, middle(off),
-      *std::max_element(off.begin(), off.end()));
+      off.empty() ? -1.0 : *std::max_element(off.begin(), off.end()));
 }
 
 }  // namespace
