@@ -33,7 +33,7 @@ FaultSet watch_moving(DriveRows drives, const DriveCommands& last, Span<const Va
       stops.add(Fault::kMotionImplausible);
     }
   }
-  stops.add(watch_direction(drives, seen, state.direction));
+  stops.add(watch_direction(drives, seen, period_s, state.direction));
   return stops;
 }
 

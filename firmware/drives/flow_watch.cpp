@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/oil_lengths.hpp"
 #include "firmware/drives/tuning.hpp"
 
 namespace graben {
@@ -22,17 +23,14 @@ void compress(const DriveRow& drive, const ValidDrive& seen, FlowState& state) {
   const double rod_change_pa = kFlowPressureShare * (seen.rod_pressure_pa - state.rod_pa);
   state.cap_pa += cap_change_pa;
   state.rod_pa += rod_change_pa;
-  // A motor's sides are as large wherever it stands.
-  const bool grows = drive.control.has_end_stops;
-  const double cap_oil_m = kFlowHose_m + (grows ? seen.stroke_m - drive.least_travel_m : 0.0);
-  const double rod_oil_m = kFlowHose_m + (grows ? drive.most_travel_m - seen.stroke_m : 0.0);
+  const OilLengths oil = oil_lengths(drive, seen.stroke_m);
   const bool extends = seen.spool_ratio > 0.0;
   const double drained_pa = extends ? seen.rod_pressure_pa : seen.cap_pressure_pa;
   if (extends || drained_pa < kFlowEmpty_pa) {
-    give_way(rod_change_pa, rod_oil_m, !extends, state.least_m, state.most_m);
+    give_way(rod_change_pa, oil.rod_m, !extends, state.least_m, state.most_m);
   }
   if (!extends || drained_pa < kFlowEmpty_pa) {
-    give_way(-cap_change_pa, cap_oil_m, extends, state.least_m, state.most_m);
+    give_way(-cap_change_pa, oil.cap_m, extends, state.least_m, state.most_m);
   }
 }
 

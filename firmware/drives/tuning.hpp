@@ -105,11 +105,9 @@ inline constexpr double kGuardSurelyOpen = 0.65;
 inline constexpr double kGuardMoreThanMoved = 0.1;
 /// Speed from which a duty has moved its drive. [m/s; chosen: faster than it creeps; not tried]
 inline constexpr double kGuardMoves_mps = 0.01;
-/// Way from which a duty has moved its drive. [m; chosen: farther than a linkage rocks on its oil;
-/// not tried]
+/// Way from which a duty has moved its drive. [m; chosen: more than its oil gives; not tried]
 inline constexpr double kGuardMoved_m = 0.015;
-/// Time beyond kGuardUnderWay_s for which a drive may stand that should move. [s; chosen: not
-/// tried]
+/// Time beyond kGuardUnderWay_s that a drive may stand that should move. [s; chosen: not tried]
 inline constexpr double kGuardStrained_s = 0.4;
 /// Low-pass of the chamber pressures. [s; chosen: ten cycles take out noise; not tried]
 inline constexpr double kGuardPressure_s = 0.1;
@@ -120,8 +118,7 @@ inline constexpr double kGuardHolds_s = 1.0;
 inline constexpr double kGuardRise_ps = 0.03;
 /// Duty up to which a drive may stand for ever. [-; chosen: no edge is earlier; not tried]
 inline constexpr double kGuardSurelyClosed = 0.1;
-/// Bound of the duty beyond kGuardSurelyClosed times time, while nothing moves. [s; chosen: 10 s at
-/// a duty of 0.3; not tried]
+/// Most duty beyond kGuardSurelyClosed times time at rest. [s; chosen: 10 s at 0.3; not tried]
 inline constexpr double kGuardSpent_s = 2.0;
 /// Share of the relief's pressure from which the fed side strains. [-; chosen: there hardly any oil
 /// flows; not tried]
@@ -141,6 +138,9 @@ inline constexpr double kDirectionEdgeBand = 0.03;
 /// Way with its spool that may be set against way back, in bounds of the fault. [-; chosen: a drive
 /// that shakes on soft oil first goes with its spool; not tried]
 inline constexpr double kDirectionCredit = 4.0;
+/// Time constant in which it is forgotten that a side has let off. [s; chosen: a drive rings on soft
+/// oil with periods of 0.2 s and less, a fall over seconds is its load's; not tried]
+inline constexpr double kDirectionSpringFor_s = 0.5;
 
 // Gate (drive_gate.cpp)
 

@@ -9,6 +9,7 @@ using namespace graben::test;
 
 constexpr double kEdge = 0.2;
 constexpr double kStep_m = 1.0 / 1024.0;
+constexpr double kPeriod_s = 0.01;
 
 /// Equal sides.
 struct Bench {
@@ -39,7 +40,7 @@ struct Bench {
   }
   FaultSet move(double by_m) {
     seen.stroke_m += by_m;
-    return watch_direction({&row, 1}, {&seen, 1}, {&state, 1});
+    return watch_direction({&row, 1}, {&seen, 1}, kPeriod_s, {&state, 1});
   }
   /// True: stopped by the last of `count` steps, by none before it.
   bool stops_after(int count, double by_m) {
@@ -196,12 +197,66 @@ TEST(at_its_bound_it_is_sound, Bench bench) {
   assert_true(bench.stops_after(5, -kStep_m));
 }
 
+void leave_oil(double cap_m, double rod_m, Bench& bench) {
+  bench.row.control.has_end_stops = true;
+  bench.row.least_travel_m = bench.seen.stroke_m - (cap_m - 0.15);
+  bench.row.most_travel_m = bench.seen.stroke_m + (rod_m - 0.15);
+}
+
+/// 0.5 m of soft oil that lets off by 4.2 MPa has moved its drive by 3.5 mm; a fifth of what it let
+/// off is forgotten by then. The other side holds more of it.
+TEST(oil_that_lets_off_has_moved_it) {
+  for (const double way : {1.0, -1.0}) {
+    for (const double let_off_pa : {4e6, 6e6}) {
+      Bench bench;
+      bench.row.watch.wrong_m = 0.5 * kStep_m;
+      bench.open(0.5 * way);
+      leave_oil(way > 0.0 ? 2.0 : 0.5, way > 0.0 ? 0.5 : 2.0, bench);
+      double& pushes_pa = way > 0.0 ? bench.seen.rod_pressure_pa : bench.seen.cap_pressure_pa;
+      double& other_pa = way > 0.0 ? bench.seen.cap_pressure_pa : bench.seen.rod_pressure_pa;
+      pushes_pa = 20e6;
+      other_pa = 10e6;
+      bench.move(0.0);
+      bench.move(0.0);
+      pushes_pa -= let_off_pa;
+      repeat(12, [&] { bench.move(0.0); });
+      assert_true(bench.stops_after(4, -way * kStep_m) == (let_off_pa < 5e6));
+    }
+  }
+}
+
+TEST(what_it_let_off_long_ago_is_forgotten, Bench bench) {
+  leave_oil(0.5, 0.5, bench);
+  bench.seen.rod_pressure_pa = 30e6;
+  bench.move(0.0);
+  bench.seen.rod_pressure_pa = 20e6;
+  repeat(300, [&] { bench.move(0.0); });
+  assert_true(bench.stops_after(4, -kStep_m));
+}
+
+TEST(a_side_that_presses_harder_lets_nothing_off, Bench bench) {
+  leave_oil(0.5, 0.5, bench);
+  bench.move(0.0);
+  bench.move(0.0);
+  bench.seen.rod_pressure_pa = 20e6;
+  assert_true(bench.stops_after(4, -kStep_m));
+}
+
+TEST(a_motor_hangs_on_no_spring, Bench bench) {
+  bench.row.control.has_end_stops = false;
+  bench.seen.rod_pressure_pa = 30e6;
+  bench.move(0.0);
+  bench.seen.rod_pressure_pa = 20e6;
+  bench.move(0.0);
+  assert_true(bench.stops_after(4, -kStep_m));
+}
+
 TEST(only_its_drives_are_watched) {
   const Bench bench;
   const DriveRow rows[] = {bench.row, bench.row};
   const ValidDrive seen[] = {bench.seen, bench.seen};
   DirectionState states[2];
-  static_cast<void>(watch_direction({rows, 1}, {seen, 1}, {states, 1}));
+  static_cast<void>(watch_direction({rows, 1}, {seen, 1}, 0.01, {states, 1}));
   assert_int_equal(states[0].side, 1);
   assert_int_equal(states[1].side, 0);
 }
