@@ -17,12 +17,19 @@ int direction_of(const DriveRow& drive, double spool_ratio) {
   return spool_ratio > 0.0 ? 1 : -1;
 }
 
-void follow(double rest_s, int direction, double stroke_m, double period_s, MotionState& motion) {
+/// Where its dead band ends is known no better: beyond this the spool may lead its drive.
+bool may_lead(const DriveRow& drive, double spool_ratio, double off_m) {
+  const double edge = drive.answer.towards(spool_ratio).edge();
+  return spool_ratio * off_m > 0.0 && std::abs(spool_ratio) > edge - kDirectionEdgeBand;
+}
+
+void follow(const DriveRow& drive, const ValidDrive& seen, double period_s, MotionState& motion) {
+  const double stroke_m = seen.stroke_m;
+  const int direction = direction_of(drive, seen.spool_ratio);
   motion.since_s = direction == motion.direction ? motion.since_s + period_s : 0.0;
   motion.direction = direction;
-  const bool settling = motion.since_s < rest_s;
-  const bool leads = direction != 0 && direction * (stroke_m - motion.anchor_m) > 0.0;
-  if (settling || leads) {
+  const bool settling = motion.since_s < drive.watch.rest_s;
+  if (settling || may_lead(drive, seen.spool_ratio, stroke_m - motion.anchor_m)) {
     motion.anchor_m = stroke_m;
   } else {
     motion.anchor_m += (stroke_m - motion.anchor_m) * std::min(1.0, period_s / kMotionForget_s);
@@ -64,7 +71,7 @@ FaultSet watch_motion(DriveRows drives, Span<const ValidDrive> seen, Span<const 
     const DriveWatch& bounds = drives[i].watch;
     const double stroke_m = seen[i].stroke_m;
     MotionState& motion = state[i];
-    follow(bounds.rest_s, direction_of(drives[i], seen[i].spool_ratio), stroke_m, period_s, motion);
+    follow(drives[i], seen[i], period_s, motion);
     look_for_stillness(stroke_m, asked_mps[i], period_s, motion);
     // Where its spool leads, the anchor has come along.
     if (std::abs(stroke_m - motion.anchor_m) > bounds.uncommanded_m) {

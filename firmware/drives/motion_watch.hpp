@@ -21,7 +21,8 @@ struct MotionState {
 };
 
 /// kUncommandedMotion: with its spool closed a drive leaves the place where it came to rest
-/// (`rest_s`), or it runs back against its open spool, by more than `uncommanded_m`. What oil gives
+/// (`rest_s`), or it runs back against its open spool, by more than `uncommanded_m`. Within 3 % of
+/// the travel before its dead band's end a spool may let it go its way. What oil gives
 /// way under a load is less; leakage, which creeps, is forgotten within seconds.
 ///
 /// kStrokeStuck: with its spool open in the direction asked for, a stroke stands still to within

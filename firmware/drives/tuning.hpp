@@ -132,7 +132,7 @@ inline constexpr double kGuardSame_m = 0.001;
 /// Pressure by which a drive's own oil must push against its spool. [Pa; chosen: zeros of both
 /// sides' sensors together; not tried]
 inline constexpr double kDirectionZero_pa = 1.2e6;
-/// Share of the travel beyond the dead band's edge from which a spool is surely open. [-; chosen:
+/// Share of the travel by which a dead band's edge may lie farther out, or in. [-; chosen:
 /// the edge is known no better, and nearer to it the oil moves a drive by itself; without it tried]
 inline constexpr double kDirectionEdgeBand = 0.03;
 /// Way with its spool that may be set against way back, in bounds of the fault. [-; chosen: a drive
