@@ -59,6 +59,9 @@ struct ExcavatorInputs : MachineInputs {
   std::array<Signal<double>, kAxisCount> joint_rad;  ///< Where the bus has them and no strokes.
   std::array<ImuInputs, kImuCount> imu;              ///< Looked at only where the profile has IMUs.
   SwingInputs swing;  ///< Looked at only where the profile has a swing drive.
+  /// By second sensors; looked at only where the profile has them.
+  std::array<Signal<double>, kAxisCount> second_stroke_m;
+  Signal<double> second_swing_rad;
   std::array<Signal<double>, kPumpCount> swash_ratio;  ///< tan(alpha) / tan(alpha at full swash).
   /// The operator's levers, -1 .. 1; one that the station does not have is 0.
   Signal<std::array<double, kDriveCount>> lever_ratio;

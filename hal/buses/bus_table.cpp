@@ -61,6 +61,7 @@ BusParts with_table(BusParts parts, const BusTable* table) {
     parts.table = table;
     parts.own_machine = table->own_frames;
     parts.swing_drive = parts.swing_drive && table->own_frames;
+    parts.second_swing = parts.second_swing && table->own_frames;
     parts.own_engine = !table->has_engine;
   }
   return parts;

@@ -59,6 +59,8 @@ struct Store : CommonStore<ExcavatorInputs, Task::kDig, Task::kProgram, Task::kJ
 
   static constexpr BusPart part(const bus::SwingState&) { return &BusParts::swing_drive; }
   static constexpr BusPart part(const bus::SwingValveState&) { return &BusParts::swing_drive; }
+  static constexpr BusPart part(const bus::SecondStrokes&) { return &BusParts::second_strokes; }
+  static constexpr BusPart part(const bus::SecondSwing&) { return &BusParts::second_swing; }
   static constexpr BusPart part(const bus::BoomStroke&) { return &BusParts::own_machine; }
   static constexpr BusPart part(const bus::ArmStroke&) { return &BusParts::own_machine; }
   static constexpr BusPart part(const bus::BucketStroke&) { return &BusParts::own_machine; }
@@ -110,6 +112,14 @@ struct Store : CommonStore<ExcavatorInputs, Task::kDig, Task::kProgram, Task::kJ
   static void store(const bus::SwingValveState& message, TimeUs now, To& to) {
     put(to.inputs.swing.spool_ratio, message.swing_spool_ratio, now);
   }
+  static void store(const bus::SecondStrokes& message, TimeUs now, To& to) {
+    put(to.inputs.second_stroke_m[0], message.boom_stroke_m, now);
+    put(to.inputs.second_stroke_m[1], message.arm_stroke_m, now);
+    put(to.inputs.second_stroke_m[2], message.bucket_stroke_m, now);
+  }
+  static void store(const bus::SecondSwing& message, TimeUs now, To& to) {
+    put(to.inputs.second_swing_rad, message.swing_angle_rad, now);
+  }
   static void store(const bus::OperatorAxes& message, TimeUs now, To& to) {
     put_all(to.inputs.lever_ratio, now, message.boom_or_up_ratio, message.arm_or_forward_ratio,
             message.bucket_or_attitude_ratio, message.swing_ratio);
@@ -127,7 +137,7 @@ using OwnReceived =
     dbc::MessageList<bus::BoomStroke, bus::ArmStroke, bus::BucketStroke, bus::BoomPressure,
                      bus::ArmPressure, bus::BucketPressure, bus::PumpState, bus::ValveState,
                      bus::SwingState, bus::SwingValveState, bus::OperatorAxes, bus::CommissionDuty,
-                     bus::CommissionWindow>;
+                     bus::CommissionWindow, bus::SecondStrokes, bus::SecondSwing>;
 constexpr auto kReceiveTable = receive_table<ExcavatorInputs, Store>(
     OwnReceived{}, CommonReceived{}, bus::kMessages, bus::kDbcVersion);
 

@@ -11,11 +11,12 @@
 
 namespace graben {
 
-/// What the controller receives. The swing's messages are those of a machine with a swing drive. An
-/// operator's frame whose task is a dozer's is refused like one whose value is out of range.
+/// What the controller receives. The swing's messages are those of a machine with a swing drive,
+/// second sensors' of one whose profile has them. An operator's frame whose task is a dozer's is
+/// refused like one whose value is out of range.
 struct ExcavatorReception {
   using Inputs = ExcavatorInputs;
-  static constexpr int kMessageCount = 16;
+  static constexpr int kMessageCount = 18;
   [[nodiscard]] static const ReceiveTable<Inputs, kMessageCount>& table();
 };
 

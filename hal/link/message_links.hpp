@@ -52,7 +52,7 @@ constexpr std::uint32_t rejected(const LinkCounters& counters) {
 /// frame under any id with our own address is somebody else's, for no port hears what it sends.
 class MessageLinks {
  public:
-  /// An excavator's bus has 16; what is planned is in can_dbc/README.md.
+  /// An excavator's bus has 18; what is planned is in can_dbc/README.md.
   static constexpr std::size_t kMostMessages = 24;
   static constexpr int kNoMessage = -1;
   /// So long after a frame under an id of ours its sender counts as there: a second is the longest

@@ -26,6 +26,8 @@ struct BusParts {
   bool own_machine = true;
   bool own_engine = true;
   const BusTable* table = nullptr;  ///< Another bus than ours, or one beside it; null: none.
+  bool second_strokes = false;      ///< Second sensors of cylinders.
+  bool second_swing = false;        ///< One of the swing.
 };
 
 /// The part that a message belongs to; null: a message of every machine of its kind.

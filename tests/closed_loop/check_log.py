@@ -81,9 +81,12 @@ SWING = ("SwingState", "SwingValveState", "SwingCommand")
 # Of an operator's station whose hands move the machine: no run of a task has them.
 HANDS = ("OperatorAxes", "CommissionDuty", "CommissionWindow")
 
+# Of second sensors, which a shipped machine has only where it is told so.
+SECOND = ("SecondStrokes", "SecondSwing")
+
 
 def without_hands(messages):
-    return {number: m for number, m in messages.items() if m["name"] not in HANDS}
+    return {number: m for number, m in messages.items() if m["name"] not in HANDS + SECOND}
 
 
 def without_swing(messages):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Logs of the DBC version before this one, as they were written then: compared, exported, identified, each by its own
+"""Logs of the DBC versions before this one, as they were written then: compared, exported, identified, each by its own
 version's layout of EcuStatus; of any other version they are refused with both versions. The page: old_logs.test.ts.
 
 check_old_logs.py GRABEN
@@ -12,7 +12,11 @@ import sys
 import tempfile
 
 LOGS = pathlib.Path(__file__).parent.parent / "old_logs"
-EXCAVATOR, DOZER = LOGS / "excavator_10.log", LOGS / "dozer_7.log"
+EXCAVATORS = LOGS / "excavator_10.log", LOGS / "excavator_11.log"
+DOZERS = LOGS / "dozer_7.log", LOGS / "dozer_8.log"
+EXCAVATOR, DOZER = EXCAVATORS[0], DOZERS[0]
+# The oldest that is read and this version.
+EXCAVATOR_READS, DOZER_READS = (10, 12), (7, 9)
 
 
 def call(folder, *arguments, status=0):
@@ -42,8 +46,8 @@ def with_version(folder, log, version):
     return other
 
 
-def refused(folder, log, version, own):
-    both = f"speaks version {version} of the DBC, this tool reads versions {own - 1} to {own}"
+def refused(folder, log, version, reads):
+    both = f"speaks version {version} of the DBC, this tool reads versions {reads[0]} to {reads[1]}"
     for arguments in (("compare", log, EXCAVATOR), ("compare", DOZER, log), ("export", log, "--mcap", "other.mcap")):
         said = call(folder, *arguments, status=1)
         assert both in said, said
@@ -52,18 +56,20 @@ def refused(folder, log, version, own):
 
 with tempfile.TemporaryDirectory() as name:
     here = pathlib.Path(name)
-    found = shares(here, EXCAVATOR)
-    assert found == {"nothing": 30.0, "behind the plan": 70.0}, found
-    assert words(here, EXCAVATOR) == [("Active", "behind the plan"), ("Active", "none")], words(here, EXCAVATOR)
-    found = shares(here, DOZER)
-    assert found == {"what lies ahead": 50.0, "rise of lambda": 50.0}, found
-    assert words(here, DOZER) == [("Active", "what lies ahead"), ("Active", "rise of lambda")], words(here, DOZER)
+    for log in EXCAVATORS:
+        found = shares(here, log)
+        assert found == {"nothing": 30.0, "behind the plan": 70.0}, (log, found)
+        assert words(here, log) == [("Active", "behind the plan"), ("Active", "none")], log
+    for log in DOZERS:
+        found = shares(here, log)
+        assert found == {"what lies ahead": 50.0, "rise of lambda": 50.0}, (log, found)
+        assert words(here, log) == [("Active", "what lies ahead"), ("Active", "rise of lambda")], log
     # A fraction of a second is no motion to identify by; that it is of the version before is no reason.
     PROFILE = ("--profile", "excavator_12t", "--out", "new.toml")
     assert "no 5 s in one piece are in it" in call(here, "identify", "--log", EXCAVATOR, *PROFILE, status=1)
-    for version in (9, 12):
+    for version in (9, 13):
         other = with_version(here, EXCAVATOR, version)
-        refused(here, other, version, 11)
+        refused(here, other, version, EXCAVATOR_READS)
         said = call(here, "identify", "--log", other, *PROFILE, status=1)
-        assert f"speaks version {version} of the DBC, this tool reads versions 10 to 11" in said, said
-    refused(here, with_version(here, DOZER, 6), 6, 8)
+        assert f"speaks version {version} of the DBC, this tool reads versions 10 to 12" in said, said
+    refused(here, with_version(here, DOZER, 6), 6, DOZER_READS)

@@ -107,6 +107,12 @@ dbc::Payload ExcavatorBus::Body::payload_of(std::uint32_t id) const {
       return bus::CommissionDuty{physical(0.0), physical(0.0), physical(0.0)}.encode();
     case bus::CommissionWindow::kId:
       return bus::CommissionWindow{}.encode();
+    case bus::SecondStrokes::kId:
+      return bus::SecondStrokes{physical(strokes_m_[0]), physical(strokes_m_[1]),
+                                physical(strokes_m_[2])}
+          .encode();
+    case bus::SecondSwing::kId:
+      return bus::SecondSwing{physical(0.0)}.encode();
     default:
       break;
   }

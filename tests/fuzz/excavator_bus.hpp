@@ -21,12 +21,14 @@ struct ExcavatorBus : ecu::ExcavatorKind {
   [[nodiscard]] static const Machine& shipped();
   /// Without it nothing may move: the others only slow.
   [[nodiscard]] static bool is_needed(std::uint32_t id);
-  /// Of a swing drive, which the shipped machine does not have; or of the operator's hands, which
-  /// the task that is fuzzed does not look at. Unspoilt they come in no run.
+  /// Of a swing drive or second sensors, which the shipped machine does not have; or of the
+  /// operator's hands, which the task that is fuzzed does not look at. Unspoilt they come in no
+  /// run.
   [[nodiscard]] static constexpr bool is_of_a_part(std::uint32_t id) {
     return id == Dbc::SwingState::kId || id == Dbc::SwingValveState::kId ||
            id == Dbc::OperatorAxes::kId || id == Dbc::CommissionDuty::kId ||
-           id == Dbc::CommissionWindow::kId;
+           id == Dbc::CommissionWindow::kId || id == Dbc::SecondStrokes::kId ||
+           id == Dbc::SecondSwing::kId;
   }
   /// Whether its values may be not available.
   [[nodiscard]] static bool may_miss(std::uint32_t id) {

@@ -62,7 +62,7 @@ constexpr Scale kScales[] = {
     {"PayloadDeviation", 1.0, 0.0, 0.0, 250.0},
 };
 
-TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 98); }
+TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 102); }
 
 TEST(saturates_and_refuses) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

@@ -19,8 +19,8 @@ struct Plan {
   int protected_count;
 };
 // With the swing's messages, and as a machine without a swing drive has it.
-constexpr Plan kExcavator{0.40, 0.50, 17};
-constexpr Plan kWithoutSwing{0.25, 0.43, 14};
+constexpr Plan kExcavator{0.40, 0.53, 19};
+constexpr Plan kWithoutSwing{0.25, 0.45, 15};
 // With the messages of a tilt and of a track that curves, and without.
 constexpr Plan kDozer{0.30, 0.50, 14};
 constexpr Plan kWithoutTilt{0.30, 0.43, 12};
@@ -33,7 +33,7 @@ constexpr double kBitrate = 500e3;
 
 bool is_of_every_machine(const MessageInfo& message) {
   const std::uint32_t swings[] = {excavator::SwingState::kId, excavator::SwingValveState::kId,
-                                  excavator::SwingCommand::kId};
+                                  excavator::SwingCommand::kId, excavator::SecondSwing::kId};
   return std::find(std::begin(swings), std::end(swings), message.id) == std::end(swings);
 }
 
@@ -46,22 +46,20 @@ struct Planned {
   bool of_swing = false;
 };
 constexpr Planned kPlanned[] = {
-    {0x0CFF4084U, 50.0, true, false},        // SecondStrokes
-    {0x0CFF4184U, 20.0, true, false, true},  // SecondSwing
-    {0x0CFF5E84U, 50.0, false, true},        // SecondBlade
-    {0x18FF4382U, 1.0, true, true},          // EcuChecks
-    {0x0CFF4285U, 20.0, true, true},         // ExternalLimit
-    {0x1CECFF82U, 20.0, true, true},         // TP.CM, and TP.DT in one row with it
-    {0x1CEBFF82U, 0.0, true, true},          // TP.DT
-    {0x18FECB82U, 0.0, true, true},          // DM2
-    {0x18FDB682U, 0.0, true, true},          // DM24
-    {0x18FDB782U, 0.0, true, true},          // DM25
-    {0x18EA8200U, 5.0, true, true},          // Request
-    {0x18E8FF82U, 5.0, true, true},          // Acknowledgement
-    {0x18EEFF82U, 1.0, true, true},          // AddressClaimed
-    {0x0CFF4481U, 10.0, true, true},         // AssistRequest
-    {0x0CFF4681U, 10.0, true, true},         // TouchedPoint
-    {0x18FF4582U, 10.0, true, true},         // AssistStatus
+    {0x0CFF5E84U, 50.0, false, true},  // SecondBlade
+    {0x18FF4382U, 1.0, true, true},    // EcuChecks
+    {0x0CFF4285U, 20.0, true, true},   // ExternalLimit
+    {0x1CECFF82U, 20.0, true, true},   // TP.CM, and TP.DT in one row with it
+    {0x1CEBFF82U, 0.0, true, true},    // TP.DT
+    {0x18FECB82U, 0.0, true, true},    // DM2
+    {0x18FDB682U, 0.0, true, true},    // DM24
+    {0x18FDB782U, 0.0, true, true},    // DM25
+    {0x18EA8200U, 5.0, true, true},    // Request
+    {0x18E8FF82U, 5.0, true, true},    // Acknowledgement
+    {0x18EEFF82U, 1.0, true, true},    // AddressClaimed
+    {0x0CFF4481U, 10.0, true, true},   // AssistRequest
+    {0x0CFF4681U, 10.0, true, true},   // TouchedPoint
+    {0x18FF4582U, 10.0, true, true},   // AssistStatus
 };
 
 double planned_load(bool dozer, bool swings) {

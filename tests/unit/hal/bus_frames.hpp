@@ -31,7 +31,14 @@ struct List {};
 // A receiver or transmitter of a machine with every part that its bus knows of.
 template <class End>
 struct WithAllParts : End {
-  WithAllParts() : End(BusParts{true}) {}
+  WithAllParts() : End(all_parts()) {}
+
+  [[nodiscard]] static BusParts all_parts() {
+    BusParts parts{true};
+    parts.second_strokes = true;
+    parts.second_swing = true;
+    return parts;
+  }
 };
 
 // Raw value that a test gives to a field: valid and distinct from its start value.
@@ -75,7 +82,8 @@ struct ExcavatorBus {
            dbc::excavator::BucketPressure, dbc::excavator::PumpState,
            dbc::excavator::OperatorCommand, dbc::excavator::ValveState, dbc::excavator::SwingState,
            dbc::excavator::SwingValveState, dbc::excavator::OperatorAxes,
-           dbc::excavator::CommissionDuty, dbc::excavator::CommissionWindow>;
+           dbc::excavator::CommissionDuty, dbc::excavator::CommissionWindow,
+           dbc::excavator::SecondStrokes, dbc::excavator::SecondSwing>;
   using Unprotected = List<dbc::excavator::EEC1, dbc::excavator::MachineIdentity>;
   using Other = List<dbc::excavator::ArmStroke, dbc::excavator::ValveState,
                      dbc::excavator::SpoolCommand, dbc::excavator::PumpCommand>;

@@ -63,6 +63,19 @@ TEST(swing) {
   assert_int_equal(feed.receiver.foreign(), 0);
 }
 
+TEST(second_sensors) {
+  Feed<WithAllParts<ExcavatorReceiver>> feed;
+  const TimeUs strokes_us =
+      feed.send(bus::SecondStrokes{{1.25, RawState::kValid}, {}, {0.75, RawState::kValid}});
+  const TimeUs swing_us = feed.send(bus::SecondSwing{{-1.25, RawState::kValid}});
+  const ExcavatorInputs& in = feed.receiver.inputs();
+  assert_signal(in.second_stroke_m[0], 1.25, strokes_us);
+  assert_int_equal(in.second_stroke_m[1].validity, Validity::kNotAvailable);
+  assert_signal(in.second_stroke_m[2], 0.75, strokes_us);
+  assert_signal(in.second_swing_rad, -1.25, swing_us);
+  assert_int_equal(feed.receiver.foreign(), 0);
+}
+
 // Without a swing drive its frames, good or bad, are nobody's.
 TEST(another_machines_swing_is_foreign, ExcavatorFeed feed) {
   CanFrame corrupt = frame_of(filled<bus::SwingState>(1000), 1);
@@ -70,8 +83,10 @@ TEST(another_machines_swing_is_foreign, ExcavatorFeed feed) {
   for (int n = 0; n < 10; ++n) {
     feed.receiver.accept(frame_of(filled<bus::SwingValveState>(1000), 0), ++feed.start_us);
     feed.receiver.accept(corrupt, ++feed.start_us);
+    feed.receiver.accept(frame_of(filled<bus::SecondStrokes>(1000), 0), ++feed.start_us);
+    feed.receiver.accept(frame_of(filled<bus::SecondSwing>(1000), 0), ++feed.start_us);
   }
-  assert_int_equal(feed.receiver.foreign(), 20);
+  assert_int_equal(feed.receiver.foreign(), 40);
   assert_int_equal(rejected(feed.receiver.total()), 0);
   assert_true(feed.receiver.message_faults(feed.start_us).empty());
   const SwingInputs& in = feed.receiver.inputs().swing;

@@ -206,7 +206,7 @@ TEST_FOR_EACH(out_of_range_is_refused_as_a_whole, Bus, ExcavatorBus, DozerBus) {
   };
   for_each(typename Bus::Protected{}, test);
   for_each(typename Bus::Unprotected{}, test);
-  assert_in_range(fields, 15, 40);
+  assert_in_range(fields, 15, 44);
 }
 
 TEST_FOR_EACH(sender_says_error_or_not_available, Bus, ExcavatorBus, DozerBus) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Logs of the DBC version before this one, as they were written then (tests/old_logs).
+/// Logs of the DBC versions before this one, as they were written then (tests/old_logs).
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
@@ -12,15 +12,16 @@ import {limit_shares} from '../src/view/limits/limit_shares';
 import {bytes_of, store_of} from './make';
 
 const folder = `${process.env.GRABEN_DBC ?? 'can_dbc'}/../tests/old_logs`;
-const EXCAVATOR = readFileSync(`${folder}/excavator_10.log`, 'utf8');
-const DOZER = readFileSync(`${folder}/dozer_7.log`, 'utf8');
+const [EXCAVATOR, EXCAVATOR_11, DOZER, DOZER_8] = ['excavator_10', 'excavator_11', 'dozer_7', 'dozer_8']
+  .map((name) => readFileSync(`${folder}/${name}.log`, 'utf8'));
 
 const states = (store: PageStore, signal: string, times_s: readonly number[]): string[] =>
   times_s.map((time_s) => store.database!.signal(signal).states.get(store.reading(signal, time_s).raw)!);
 
-test('an excavator of version 10', () => {
-  const store = store_of(EXCAVATOR);
-  assert.equal(store.database, databaseOf('excavator', 10));
+for (const [version, log] of [[10, EXCAVATOR], [11, EXCAVATOR_11]] as const)
+test(`an excavator of version ${version}`, () => {
+  const store = store_of(log);
+  assert.equal(store.database, databaseOf('excavator', version));
   // Before the controller has said its version and after.
   assert.deepEqual(states(store, 'EcuStatus.LimitKind', [24.91, 25.03, 25.05]), ['OffPath', 'OffPath', 'None']);
   assert.deepEqual(states(store, 'EcuStatus.Mode', [24.91, 25.03, 25.05]), ['Active', 'Active', 'Active']);
@@ -30,9 +31,10 @@ test('an excavator of version 10', () => {
   assert.deepEqual(store.faults(), []);
 });
 
-test('a dozer of version 7', () => {
-  const store = store_of(DOZER);
-  assert.equal(store.database, databaseOf('dozer', 7));
+for (const [version, log] of [[7, DOZER], [8, DOZER_8]] as const)
+test(`a dozer of version ${version}`, () => {
+  const store = store_of(log);
+  assert.equal(store.database, databaseOf('dozer', version));
   assert.deepEqual(states(store, 'EcuStatus.LimitKind', [10.97, 11.03]), ['Ahead', 'Rise']);
   assert.deepEqual(states(store, 'EcuStatus.Mode', [10.97, 11.03]), ['Active', 'Active']);
 });

@@ -32,7 +32,8 @@ export function loadDatabase(kind: Kind): Database {
 }
 
 /// Versions that are read, and the first whose LimitKind has five bits: before it EcuStatus alone was
-/// another. As log_version.hpp of identify; a log of each is in tests/old_logs.
+/// another, and later ones only have messages more. As log_version.hpp of identify; a log of each is in
+/// tests/old_logs.
 const OLDEST: Readonly<Record<Kind, number>> = {excavator: 10, dozer: 7};
 const FIVE_BITS: Readonly<Record<Kind, number>> = {excavator: 11, dozer: 8};
 
