@@ -153,6 +153,7 @@ TaskCommand task_command(const DigCommand& options) {
   run.scenario.errors = options.scenario.errors;
   run.scenario.found = options.scenario.scenario.found;
   run.scenario.imus = options.scenario.scenario.imus;
+  run.scenario.seconds = options.scenario.scenario.seconds;
   run.scenario.seed = options.seed;
   run.scenario.speed_override_ratio = options.speed;
   run.profile = options.profile.value_or(run.profile);

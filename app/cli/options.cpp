@@ -53,7 +53,7 @@ void add_scenario_options(CLI::App& command, runs::DigScenario& scenario) {
           "the profile's unless told")
       ->check(one_of({machines::kLawNames.begin(), machines::kLawNames.end()}));
   add_swash_option(command, scenario.swash_ratio);
-  add_sensor_option(command, tried.imus);
+  add_sensor_option(command, tried.imus, tried.seconds);
   add_mounting_option(command, tried.imu_mounting_rad);
   command
       .add_option("--without", tried.without,
@@ -92,13 +92,18 @@ void add_simulated_options(CLI::App& command, machines::SimulatedChoice& choice)
       ->check(whole_number());
 }
 
-void add_sensor_option(CLI::App& command, bool& imus) {
+void add_sensor_option(CLI::App& command, bool& imus, bool& seconds) {
   command
       .add_option_function<std::string>(
-          "--sensors", [&imus](const std::string& name) { imus = name == "imu"; },
-          "What measures the joints: the profile's sensors, or imu: an IMU in the middle of each "
-          "link unless the profile has its own")
-      ->check(one_of({"profile", "imu"}))
+          "--sensors",
+          [&imus, &seconds](const std::string& name) {
+            imus = name == "imu";
+            seconds = name == "second";
+          },
+          "What measures the joints: the profile's sensors; imu: an IMU in the middle of each link "
+          "unless the profile has its own; second: a second sensor on every joint beside the "
+          "profile's, unless that has its own")
+      ->check(one_of({"profile", "imu", "second"}))
       ->default_str("profile");
 }
 
@@ -212,7 +217,7 @@ void add_task_options(CLI::App& command, runs::TaskScenario& scenario) {
       ->expected(4);
   add_override_option(command, scenario.speed_override_ratio);
   add_swash_option(command, scenario.swash_ratio);
-  add_sensor_option(command, scenario.imus);
+  add_sensor_option(command, scenario.imus, scenario.seconds);
   command
       .add_option("--duration", scenario.duration_s,
                   "Of the first straight step, s; longer where a drive's limit asks for it")

@@ -28,7 +28,7 @@ void add_found_option(CLI::App& command, machines::Found& found);
 void add_simulated_options(CLI::App& command, machines::SimulatedChoice& choice);
 
 /// Adds --sensors, of the same.
-void add_sensor_option(CLI::App& command, bool& imus);
+void add_sensor_option(CLI::App& command, bool& imus, bool& seconds);
 /// Adds --imu-mounting, of `dig`, `campaign dig`, `plant` and `measure-up`.
 void add_mounting_option(CLI::App& command, double& mounting_rad);
 /// Adds --swash, of `dig`, `campaign dig`, `plant`, `autodig` and `campaign autodig`.

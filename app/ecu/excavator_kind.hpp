@@ -37,6 +37,8 @@ struct ExcavatorKind {
     for (std::size_t i = 0; i < parts.imu.size(); ++i) {
       parts.imu[i] = setup.profile.imu.mount[i].address;
     }
+    parts.second_strokes = setup.profile.second.strokes();
+    parts.second_swing = setup.profile.second.has[kSwing];
     return parts;
   }
   /// Of the bus that the machine is on, if that is not ours.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/machines/imu_section.hpp"
+#include "app/machines/second_section.hpp"
 #include "app/machines/toml_reader.hpp"
 
 namespace graben::machines {
@@ -39,6 +40,7 @@ SensorZeros read_sensor_zeros(TomlReader& reader) {
 void read_joint_sensors(TomlReader& reader, ExcavatorProfile& profile) {
   profile.sensor_zero = read_sensor_zeros(reader);
   profile.imu = read_imus(reader);
+  profile.second = read_seconds(reader, profile.has_swing());
 }
 
 }  // namespace graben::machines

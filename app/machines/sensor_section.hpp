@@ -8,7 +8,8 @@ namespace graben::machines {
 
 class TomlReader;
 
-/// Zeros of stroke and pressure sensors, each 0 where nothing is said, and the IMUs.
+/// Zeros of stroke and pressure sensors, each 0 where nothing is said, the IMUs, and second
+/// sensors.
 void read_joint_sensors(TomlReader& reader, ExcavatorProfile& profile);
 
 }  // namespace graben::machines

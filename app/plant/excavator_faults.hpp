@@ -30,6 +30,7 @@ struct SpoolFaults {
 
 struct AxisFaults : SpoolFaults {
   StrokeFault stroke;
+  StrokeFault second;  ///< Of its second sensor, where it has one.
   PressureFault cap;
   PressureFault rod;
   bool pressures_swapped = false;  ///< Each is connected to the other's port.
@@ -38,6 +39,7 @@ struct AxisFaults : SpoolFaults {
 /// Of no effect on a machine without a swing drive.
 struct SwingFaults : SpoolFaults {
   AngleFault angle;
+  AngleFault second;  ///< Of its second sensor, where it has one.
   PressureFault left;
   PressureFault right;
 };

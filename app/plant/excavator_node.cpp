@@ -20,6 +20,7 @@ ExcavatorNode::ExcavatorNode(const ExcavatorPlantProfile& profile, const Excavat
     : MachineNode(port, profile_hash, profile, start.strokes_m, start.swing_rad),
       sensors_(profile),
       imus_(profile, profile.sensor_errors ? std::optional(profile.seed) : std::nullopt),
+      seconds_(profile),
       canopen_(profile),
       wanted_swash_(profile.swash_ratio) {
   if (profile.zx200) {
@@ -48,6 +49,7 @@ void ExcavatorNode::step_zx200(TimeUs now) {
   set_duties();
   apply_faults();
   advance(now);
+  send_seconds(now);
   if (!faults.lost) {
     zx200_->report(plant_, faults_, sensors_, cycle(),
                    [this, now](const auto& message) { send(message, now); });
@@ -66,6 +68,7 @@ void ExcavatorNode::step(TimeUs now) {
   apply_faults();
   advance(now);
   send_canopen(now);
+  send_seconds(now);
   if (plant_.profile().sold.silent) {
     if (is_due<bus::EEC1>()) {
       send(bus::EEC1{valid(plant_.engine_radps())}, now);
@@ -229,6 +232,21 @@ void ExcavatorNode::send_imus(TimeUs now) {
 void ExcavatorNode::send_canopen(TimeUs now) {
   for (const CanFrame& frame : canopen_.report(plant_, faults_, sensors_, cycle())) {
     send_frame(frame, now);
+  }
+}
+
+void ExcavatorNode::send_seconds(TimeUs now) {
+  const SecondSensors& second = plant_.profile().machine.second;
+  if (!second.any()) {
+    return;
+  }
+  seconds_.look(plant_, faults_);
+  if (second.strokes() && is_due<bus::SecondStrokes>(1)) {
+    send(bus::SecondStrokes{seconds_.shown(kBoom), seconds_.shown(kArm), seconds_.shown(kBucket)},
+         now);
+  }
+  if (second.has[kSwing] && is_due<bus::SecondSwing>(3)) {
+    send(bus::SecondSwing{seconds_.shown(kSwing)}, now);
   }
 }
 

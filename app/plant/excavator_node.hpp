@@ -12,6 +12,7 @@
 #include "app/plant/excavator_sensors.hpp"
 #include "app/plant/link_imus.hpp"
 #include "app/plant/machine_node.hpp"
+#include "app/plant/second_sensors.hpp"
 #include "app/plant/slope_sensors.hpp"
 #include "app/plant/sold_valves.hpp"
 #include "app/plant/zx200_gateway.hpp"
@@ -40,8 +41,9 @@ struct ExcavatorStart {
 /// follows SwingCommand by the same rules as the others SpoolCommand, and opens only while
 /// SpoolCommand lets them open too. A machine without a swing drive neither listens to nor says
 /// anything of the swing. One whose profile has IMUs sends their frames and no strokes, and so does
-/// one with parts off the shelf (SoldParts) that measure. One of the ZX200 class speaks its own bus
-/// instead of all that, see zx200_gateway.hpp.
+/// one with parts off the shelf (SoldParts) that measure. Second sensors, where its profile has
+/// them, speak our bus whatever the rest does. One of the ZX200 class speaks its own bus instead of
+/// all that, see zx200_gateway.hpp.
 class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, ExcavatorFaults> {
  public:
   ExcavatorNode(const ExcavatorPlantProfile& profile, const ExcavatorStart& start, CanPort& port,
@@ -74,6 +76,7 @@ class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, Ex
   void send_imus(TimeUs now);
   void send_slopes(TimeUs now);
   void send_canopen(TimeUs now);
+  void send_seconds(TimeUs now);
   void obey_sold_valves(TimeUs now);
   void send_pumps(TimeUs now);
   void send_valve(TimeUs now);
@@ -82,6 +85,7 @@ class ExcavatorNode : public MachineNode<dbc::excavator::Dbc, ExcavatorPlant, Ex
 
   FaultySensors sensors_;
   LinkImuModel imus_;
+  SecondSensorModel seconds_;
   std::optional<Zx200Gateway> zx200_;
   std::optional<SlopeSensors> slopes_;
   CanopenParts canopen_;

@@ -42,6 +42,11 @@ struct SensorErrors {
   double imu_rate_noise_radps = 0.0;  ///< Standard deviation.
   double imu_force_noise_mps2 = 0.0;  ///< Standard deviation.
   double joint_bias_rad = 0.0;        ///< Of a joint's angle, where the machine measures that.
+  // Of second sensors, where the machine has them.
+  double second_bias_m = 0.0;  ///< Of a stroke.
+  double second_scale = 0.0;   ///< Of what a stroke or angle shows.
+  double second_swing_bias_rad = 0.0;
+  std::array<double, 2> second_age_s{};  ///< Least and most, of what they show.
   std::array<double, kAxisCount> stroke_zero_m{};
   /// Of each drive's two chambers; of the swing cap is the left port, rod the right one.
   std::array<double, kDriveCount> cap_zero_pa{};

@@ -33,6 +33,7 @@ enum class Draw : std::uint32_t {
   kLoad,
   kImuMounting,
   kEye,
+  kSecondBias,
 };
 
 class Random {

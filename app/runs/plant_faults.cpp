@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "can_dbc/generated/excavator_dbc.hpp"
+
 namespace graben::runs {
 namespace {
 
@@ -97,6 +99,9 @@ PlantFaultTable<Excavator> make_excavator() {
     add_sensor(
         name + "-stroke", [i](Excavator & faults) -> auto& { return faults.axis[i].stroke; },
         table);
+    add_sensor(
+        name + "-second", [i](Excavator & faults) -> auto& { return faults.axis[i].second; },
+        table);
     add_spool(name, axis, table);
     table[name + "-pressures:swapped"] = [i](Excavator& faults, double) {
       faults.axis[i].pressures_swapped = true;
@@ -110,6 +115,12 @@ PlantFaultTable<Excavator> make_excavator() {
   }
   add_sensor(
       "swing-angle", [](Excavator & faults) -> auto& { return faults.swing.angle; }, table);
+  add_sensor(
+      "swing-second", [](Excavator & faults) -> auto& { return faults.swing.second; }, table);
+  table["second-sensors:silent"] = [](Excavator& faults, double) {
+    faults.set_silent(dbc::excavator::SecondStrokes::kId, true);
+    faults.set_silent(dbc::excavator::SecondSwing::kId, true);
+  };
   add_spool(
       "swing", [](Excavator & faults) -> auto& { return faults.swing; }, table);
   for (unsigned j = 0; j < kPumpCount; ++j) {

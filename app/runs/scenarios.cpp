@@ -100,6 +100,7 @@ std::string scenario_text(const DigScenario& scenario) {
   add(scenario.scenario.stiff_oil, "stiff oil");
   add(scenario.fixed_lambda, "lambda fixed at 1");
   add(scenario.scenario.imus, "IMUs");
+  add(scenario.scenario.seconds, "second sensors");
   if (scenario.scenario.imu_mounting_rad > 0.0) {
     parts.push_back(
         fmt::format("IMUs turned by up to {:.6g} rad", scenario.scenario.imu_mounting_rad));
@@ -197,6 +198,7 @@ machines::SimulatedExcavator arranged(const machines::SimulatedExcavator& machin
   tried.errors = errors_of(scenario.errors);
   tried.found = scenario.found;
   tried.imus = scenario.imus;
+  tried.seconds = scenario.seconds;
   tried.ground = scenario.soil;
   tried.seed = scenario.seed;
   machines::SimulatedExcavator result = machines::arranged(machine, tried);
@@ -208,6 +210,9 @@ std::string machine_text(const TaskScenario& scenario) {
   std::string text = errors_text(scenario.errors, scenario.found);
   if (scenario.imus) {
     text = "IMUs, " + text;
+  }
+  if (scenario.seconds) {
+    text = "second sensors, " + text;
   }
   return scenario.soil.empty() ? text : fmt::format("{}, {}", scenario.soil, text);
 }

@@ -72,6 +72,7 @@ struct TaskScenario {
   std::string soil;              ///< Of machines::kSoilNames; empty: no ground in the way.
   machines::Found found;         ///< What the machine is told to be.
   bool imus = false;             ///< As machines::Scenario has it.
+  bool seconds = false;          ///< The same.
   std::uint64_t seed = 1;
   std::vector<double> start;  ///< Teeth x, y, z in m and attitude in rad; where the task begins.
   double speed_override_ratio = 1.0;

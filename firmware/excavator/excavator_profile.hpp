@@ -186,6 +186,22 @@ struct ImuProfile {
   [[nodiscard]] bool has_body() const { return mount[kBodyImu].address != 0; }
 };
 
+/// Second sensors of joints, which are compared with the first ones and lead nothing.
+struct SecondSensors {
+  std::array<bool, kDriveCount> has{};
+  double offset_m = 0.0;          ///< So far two strokes of a cylinder may differ, anywhere,
+  double swing_offset_rad = 0.0;  ///< and two angles of the swing;
+  double play_m = 0.0;            ///< so far that may change in motion;
+  double swing_play_rad = 0.0;
+  double scale = 0.0;         ///< so much more for each metre or radian that is shown.
+  double least_age_s = 0.0;   ///< A second's reading is that much older than a first's at least
+  double most_age_s = 0.0;    ///< and at most.
+  bool arms_without = false;  ///< Where one of them is missing: slow.
+
+  [[nodiscard]] bool strokes() const { return has[kBoom] || has[kArm] || has[kBucket]; }
+  [[nodiscard]] bool any() const { return strokes() || has[kSwing]; }
+};
+
 /// Feedback around the valve's model; the numbers have no meaning outside.
 enum class ControlLaw : std::uint8_t {
   kServo = 0,  ///< Integrated error of each drive, see drive_servo.hpp.
@@ -307,6 +323,7 @@ struct ExcavatorProfile {
   OilProfile oil;
   SensorZeros sensor_zero;
   ImuProfile imu;  ///< Without any, strokes are measured.
+  SecondSensors second;
   SafetyProfile safety;
 
   [[nodiscard]] bool has_swing() const { return drive_count == kDriveCount; }

@@ -52,6 +52,18 @@ inline constexpr double kStallShare = 0.05;
 /// Time for which a machine hardly gets on until it is said. [s; chosen: not tried]
 inline constexpr double kStallSaid_s = 2.0;
 
+// Two sensors of a joint (witness.cpp)
+
+/// Frames of the second sensor in a row that are farther from the first than the band until the two
+/// contradict each other. [-; chosen: one alone may be a disturbance; not tried]
+inline constexpr int kWitnessApart = 2;
+/// Share of the difference of two sensors that a frame brings, out of motion. [-; chosen: noise of
+/// some five frames is taken out; not tried]
+inline constexpr double kWitnessLearns = 0.2;
+/// Age that is not known of a reading beside what the profile says: frames come anywhere within a
+/// cycle. [s; derived: half a control period of 10 ms]
+inline constexpr double kWitnessPhase_s = 0.005;
+
 // A change of task in motion (task_change.cpp)
 
 /// Time for which the machine is still, and the same task asked for, before it begins. [s; chosen:

@@ -108,10 +108,11 @@ Excavator::Scenery Excavator::imu_scenery_of(std::uint64_t seed) {
 }
 
 Excavator::Scenery Excavator::found_scenery_of(std::uint64_t seed, const std::string& bus,
-                                               bool soil) {
+                                               bool soil, bool seconds) {
   machines::Scenario scenario = of_errors(seed, machines::Errors::kAll);
   scenario.bus = bus;
   scenario.soil = soil;
+  scenario.seconds = seconds;
   return near_the_path(scenario);
 }
 
@@ -132,8 +133,9 @@ const TaskProgram& line_with_swing() {
 
 }  // namespace
 
-Excavator::Scenery Excavator::swinging_scenery_of(std::uint64_t seed) {
-  const machines::Scenario scenario = of_errors(seed, sensors_or_kim(seed % 4 < 2));
+Excavator::Scenery Excavator::swinging_scenery_of(std::uint64_t seed, bool seconds) {
+  machines::Scenario scenario = of_errors(seed, sensors_or_kim(seed % 4 < 2));
+  scenario.seconds = seconds;
   return {machines::arranged(swinging(), scenario), line_with_swing().start.head<kAxisCount>(),
           line_with_swing().start[kSwing]};
 }

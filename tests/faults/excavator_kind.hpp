@@ -53,11 +53,12 @@ struct Excavator : runs::ExcavatorSim {
   [[nodiscard]] static Scenery stall_scenery_of(std::uint64_t seed);
   /// The same with IMUs on its links instead of stroke sensors, all errors.
   [[nodiscard]] static Scenery imu_scenery_of(std::uint64_t seed);
-  /// The same, all errors, on a shipped bus profile (empty: ours) and, if told, in soil.
+  /// The same, all errors, on a shipped bus profile (empty: ours) and, if told, in soil, and with
+  /// second sensors.
   [[nodiscard]] static Scenery found_scenery_of(std::uint64_t seed, const std::string& bus,
-                                                bool soil = false);
+                                                bool soil = false, bool seconds = false);
   /// The 12 t machine, whose platform turns, where its program 0 begins.
-  [[nodiscard]] static Scenery swinging_scenery_of(std::uint64_t seed);
+  [[nodiscard]] static Scenery swinging_scenery_of(std::uint64_t seed, bool seconds = false);
   /// With program 0 where the platform turns.
   [[nodiscard]] static Setup setup_of(const Machine& machine);
   /// Of another bus than ours; empty: none.

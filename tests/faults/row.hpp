@@ -102,7 +102,7 @@ template <class Kind>
 [[nodiscard]] Rows<Dozer> pose_rows();              ///< 54, 60
 [[nodiscard]] Rows<Dozer> tilt_rows(const Dozer&);  ///< 78, 79
 [[nodiscard]] Rows<Excavator> tilt_rows(const Excavator&);
-[[nodiscard]] Rows<Excavator> stroke_rows();  ///< 55, 82: a dozer has one stroke.
+[[nodiscard]] Rows<Excavator> stroke_rows();  ///< 55, 82 - 84: a dozer has one stroke.
 /// All of a kind, by their numbers.
 template <class Kind>
 [[nodiscard]] Rows<Kind> all_rows();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows 55, 58, 59 and 82: a sensor shows what its drive does not do. The truth is the plant's tool,
-// against the one that the strokes which the controller hears would have.
+// Rows 55, 58, 59 and 82 to 84: a sensor shows what its drive does not do. The truth is the plant's
+// tool, against the one that the strokes which the controller hears would have.
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/runs/code_text.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
 #include "firmware/dozer/blade.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "tests/faults/row.hpp"
@@ -253,6 +254,61 @@ void frozen_with_noise(Trial<Excavator>& trial) {
               kMostOff_m);
 }
 
+/// A machine whose joints have second sensors, in soil in half of the seeds.
+Rig<Excavator>& work_with_seconds(Trial<Excavator>& trial) {
+  trial.set_up(Excavator::found_scenery_of(trial.seed(), "", trial.seed() % 4 < 2, true));
+  return trial.work();
+}
+
+/// Of a joint with two sensors either lies, in a way that its valve may hide.
+void contradicts(Trial<Excavator>& trial) {
+  constexpr unsigned kLies = 6;
+  constexpr double kMostOff_m = 0.1;
+  work_with_seconds(trial);
+  plant::AxisFaults& axis = Excavator::axis(trial.rig->plant, fast_axis(trial));
+  ToolOff<Excavator> off(*trial.rig);
+  switch (trial.seed() % kLies) {
+    case 0:
+      axis.stroke.stuck = true;
+      break;
+    case 1:
+      axis.stroke.lie.gain = 0.8;
+      break;
+    case 2:
+      axis.stroke.drift_mps = 0.03;
+      break;
+    case 3:
+      axis.second.stuck = true;
+      break;
+    case 4:
+      axis.second.lie.gain = 1.3;
+      break;
+    default:
+      axis.second.jump_m = -0.02;
+  }
+  expect_seen(trial, off,
+              {Fault::kWitnessDisagrees, Fault::kStrokeStuck, Fault::kMotionImplausible},
+              15 * kSecondUs, kMostOff_m);
+}
+
+void second_missing(Trial<Excavator>& trial) {
+  using Second = dbc::excavator::SecondStrokes;
+  auto& rig = work_with_seconds(trial);
+  plant::ExcavatorFaults& faults = rig.plant.faults();
+  plant::AxisFaults& axis = faults.axis[trial.any_of(kAxisCount)];
+  Slowing slowing{trial.last_us(Second::kId), Fault::kWitnessMissing, 100 * kMillisecondUs};
+  slowing.cure = [&] {
+    faults.set_silent(Second::kId, false);
+    axis.second.state = dbc::RawState::kValid;
+  };
+  if (trial.odd()) {
+    faults.set_silent(Second::kId, true);
+  } else {
+    axis.second.state = dbc::RawState::kError;
+  }
+  trial.expect_slower(slowing);
+}
+
 }  // namespace
 
 template <class Kind>
@@ -266,7 +322,9 @@ template Rows<Dozer> motion_rows();
 
 Rows<Excavator> stroke_rows() {
   return {{55, "two strokes' sensors are swapped", "N L", swapped},
-          {82, "a stroke's sensor freezes and goes on to noise", "N L", frozen_with_noise}};
+          {82, "a stroke's sensor freezes and goes on to noise", "N L", frozen_with_noise},
+          {83, "of a joint with two sensors either lies", "N L", contradicts},
+          {84, "a joint's second sensor is missing", "D", second_missing}};
 }
 
 }  // namespace graben::faults

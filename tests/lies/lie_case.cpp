@@ -179,8 +179,9 @@ LieOutcome tried(const LieCase& lie, std::uint64_t seed) {
   }
   const bool swings = machine == "12t";
   const Excavator::Scenery scenery =
-      swings ? Excavator::swinging_scenery_of(seed)
-             : Excavator::found_scenery_of(seed, machine == "22t" ? "" : machine, lie.soil);
+      swings ? Excavator::swinging_scenery_of(seed, lie.seconds)
+             : Excavator::found_scenery_of(seed, machine == "22t" ? "" : machine, lie.soil,
+                                           lie.seconds);
   return run<Excavator, ExcavatorOff>(lie, scenery, swings ? Task::kProgram : Task::kDig,
                                       runs::excavator_plant_faults(), seed);
 }

@@ -11,6 +11,7 @@ namespace graben::lies {
 
 struct LieCase {
   std::string machine;              ///< See machines().
+  bool seconds = false;             ///< An excavator with second sensors on every joint.
   std::vector<std::string> faults;  ///< NAME or NAME=VALUE, as `graben plant --fault` has them.
   double speed_ratio = 1.0;         ///< The operator's.
   bool soil = false;

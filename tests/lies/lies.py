@@ -28,6 +28,7 @@ def tried(binary: pathlib.Path, row: dict, fault: str, speed: float, seeds: int)
         command += ["--fault", name]
     command += ["--soil"] if row.get("soil") else []
     command += ["--from-start"] if row.get("from_start") else []
+    command += ["--second"] if row.get("second") else []
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     return json.loads(done.stdout.splitlines()[-1])
 

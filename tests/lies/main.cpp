@@ -58,6 +58,7 @@ int main(int count, char** words) {
   app.add_option("--speed", lie.speed_ratio, "the operator's share of full speed")
       ->check(CLI::Range(0.05, 1.0));
   app.add_flag("--soil", lie.soil, "in soil");
+  app.add_flag("--second", lie.seconds, "with second sensors on every joint");
   app.add_flag("--from-start", lie.from_start, "from power-on");
   app.add_option("--seeds", seeds, "how many")->check(CLI::Range(1, 100000));
   app.add_option("--first-seed", first, "the first");

@@ -13,6 +13,7 @@
 #include "app/machines/bus_file.hpp"
 #include "app/machines/bus_key.hpp"
 #include "app/machines/imu_section.hpp"
+#include "app/machines/second_section.hpp"
 #include "app/machines/simulated/soil_kinds.hpp"
 #include "app/plant/random.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
@@ -152,6 +153,10 @@ SimulatedExcavator arranged(SimulatedExcavator machine, const Scenario& scenario
   if (scenario.imus && !machine.profile.imu.known()) {
     fit_usual_imus(machine.profile);
     plant.machine.imu = machine.profile.imu;
+  }
+  if (scenario.seconds && !machine.profile.second.any()) {
+    fit_usual_seconds(machine.profile);
+    plant.machine.second = machine.profile.second;
   }
   turn_imus(scenario.imu_mounting_rad, scenario.seed, plant);
   if (!scenario.bus.empty()) {

@@ -84,6 +84,25 @@ void read_imu_errors(TomlReader& reader, plant::SensorErrors& sensors) {
                        "standard deviation of an accelerometer's reading, vibration with it");
 }
 
+/// As fit_usual_seconds() allows for, and a little less.
+void read_second_errors(TomlReader& reader, plant::SensorErrors& sensors) {
+  sensors.second_bias_m =
+      reader.number_or(1.5e-3, "sensors.second_bias", {0.0, 0.05, "m"},
+                       "constant error of a cylinder's second sensor, uniform within; where there "
+                       "are any");
+  sensors.second_swing_bias_rad = reader.number_or(1.5e-3, "sensors.second_swing_bias",
+                                                   {0.0, 0.05, "rad"}, "the same of the swing's");
+  sensors.second_scale = reader.number_or(1.5e-3, "sensors.second_scale", {0.0, 0.05, ""},
+                                          "error of each, of what it shows, uniform within");
+  sensors.second_age_s = {0.0, 0.02};
+  if (reader.has("sensors.second_age")) {
+    const std::vector<double> age =
+        reader.numbers("sensors.second_age", {0.0, 0.1, "s"}, 2,
+                       "least and most age of what they show; 0 and 0.02 without it");
+    sensors.second_age_s = {age[0], std::max(age[0], age[1])};
+  }
+}
+
 plant::SensorErrors read_sensors(TomlReader& reader, const ExcavatorProfile& nominal) {
   plant::SensorErrors sensors;
   sensors.stroke_resolution_m =
@@ -105,6 +124,7 @@ plant::SensorErrors read_sensors(TomlReader& reader, const ExcavatorProfile& nom
       reader.number("sensors.pressure_noise", {0.0, 0.5, ""},
                     "standard deviation of each pressure, of pressure_range");
   read_imu_errors(reader, sensors);
+  read_second_errors(reader, sensors);
   sensors.joint_bias_rad =
       reader.number_or(3.5e-3, "sensors.joint_bias", {0.0, 0.1, "rad"},
                        "constant error of a joint's angle, uniform within; where the bus has them");

@@ -94,6 +94,7 @@ struct Scenario {
   std::optional<double> dead_time_s;  ///< Of every spool, as the controller takes it.
   /// IMUs instead of stroke sensors, of a machine whose profile says nothing of them.
   bool imus = false;
+  bool seconds = false;  ///< Second sensors on every joint, of such a machine too.
   /// Each IMU of a link is turned by up to so much against its profile, of which the controller is
   /// told nothing; drawn from the seed.
   double imu_mounting_rad = 0.0;

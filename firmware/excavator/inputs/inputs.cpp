@@ -89,6 +89,8 @@ ExcavatorValid read_inputs(const ExcavatorModel& machine, int program_count,
   const DriveRows& drives = machine.drives;
   ExcavatorValid valid =
       validated_strokes(machine, inputs, cycle, now_us, last.commands.moving, state);
+  watch_seconds(machine.profile, drives, inputs, last.commands.moving, now_us, state.seconds,
+                valid);
   watch(machine.profile, drives, last.commands, last.swash_ratio, cycle.elapsed_s, state.watch,
         valid);
   stop(task_faults(valid, program_count), valid);

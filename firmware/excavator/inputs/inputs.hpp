@@ -7,6 +7,7 @@
 #include "firmware/estimation/foretold_angle.hpp"
 #include "firmware/excavator/inputs/imu_joints.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
+#include "firmware/excavator/safety/second_sensors.hpp"
 #include "firmware/excavator/stage.hpp"
 #include "firmware/safety/cycle.hpp"
 #include "firmware/safety/task_change.hpp"
@@ -19,6 +20,7 @@ struct InputState {
   ImuState imus;
   std::array<ForetoldAngle, kAxisCount> foretold;  ///< Of measured joints that come late.
   JointAngles joints;
+  SecondStates seconds;
   ExcavatorWatchState watch;
   TaskChangeState change;
   std::array<CommissionState, kDriveCount> commission;

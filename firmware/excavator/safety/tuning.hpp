@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Judgements about the excavator's validation and watches (excavator_validation.cpp): each was
-/// chosen.
+/// Judgements about the excavator's validation and watches: each was chosen.
 
 namespace graben {
 
@@ -13,5 +12,13 @@ inline constexpr int kTriedMost = 2;
 inline constexpr double kSwashServo_s = 0.5;
 /// Lag of the slowest pump that counts as sound. [s; chosen: not tried]
 inline constexpr double kSwashLag_s = 0.25;
+
+// Second sensors of joints (second_sensors.cpp)
+
+/// Silence of SecondStrokes after which it is missing. [s; chosen: four of its frames and some
+/// delay; not tried]
+inline constexpr double kSecondStrokeSilent_s = 0.09;
+/// The same of SecondSwing. [s; chosen: three of its frames and some delay; not tried]
+inline constexpr double kSecondSwingSilent_s = 0.16;
 
 }  // namespace graben

@@ -69,6 +69,9 @@ const Promise kPromises[] = {
     {46, Fault::kStalled, 'N', 31, ArmBlock::kPath},
     {48, Fault::kCommissionBound, 'N', 31, ArmBlock::kPath},
     {49, Fault::kNoWay, 'N', 31, ArmBlock::kPath},
+    // A joint's second sensor.
+    {50, Fault::kWitnessMissing, 'D', 9, ArmBlock::kStroke},
+    {51, Fault::kWitnessDisagrees, 'N', 2, ArmBlock::kStroke},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},
