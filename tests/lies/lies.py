@@ -2,7 +2,8 @@
 """The table of lies of living sensors (firmware/safety/README.md), tried anew.
 
 Each row of lies.toml is tried by lie_cases at three speeds of the operator, with `--seeds` draws of machine,
-sensors' errors and time for each of its faults. Prints the table; --write puts it into the README.
+sensors' errors and time for each of its faults. Prints the table; --write puts it into the README, with --only the rows that were tried in the
+place of those that are there.
 """
 
 from __future__ import annotations
@@ -61,6 +62,16 @@ def table(rows: list[dict], results: dict) -> str:
     return "\n".join(lines) + "\n"
 
 
+def name_of(line: str) -> str:
+    return line.split("|")[1].strip()
+
+
+def merged(before: str, found: str, names: list[str]) -> str:
+    """The table before with the rows of the other in the place of its own, in the order of the names."""
+    lines = {name_of(line): line for text in (before, found) for line in text.splitlines()[2:]}
+    return "\n".join(found.splitlines()[:2] + [lines[name] for name in names if name in lines]) + "\n"
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path("."))
@@ -70,6 +81,7 @@ def main() -> int:
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args()
     rows = tomllib.loads((options.root / "tests/lies/lies.toml").read_text())["lie"]
+    names = [row["name"] for row in rows]
     rows = [row for row in rows if options.only in row["name"]]
     binary = options.build / "tests/lies/lie_cases"
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -81,7 +93,8 @@ def main() -> int:
     if options.write:
         readme = options.root / README
         before, rest = readme.read_text().split(BEGIN)
-        readme.write_text(before + BEGIN + text + END + rest.split(END)[1])
+        old, after = rest.split(END)
+        readme.write_text(before + BEGIN + merged(old, text, names) + END + after)
     return 0
 
 

@@ -258,10 +258,15 @@ MachineCheck check_machine(const machines::ExcavatorMachine& machine,
   check.name = machine.name;
   check.kind = "excavator";
   check.hash = machine.hash;
-  check.tables = {reach_table(reach),           joint_table(machine.profile),
-                  drive_table(machine.profile), pump_table(machine.profile),
-                  mode_table(simulated),        capability_table(machine.profile),
-                  answer_table(machine),        provenance_table(machine.provenance)};
+  check.tables = {reach_table(reach),
+                  joint_table(machine.profile),
+                  drive_table(machine.profile),
+                  pump_table(machine.profile),
+                  mode_table(simulated),
+                  capability_table(machine.profile),
+                  lie_table(machine.profile),
+                  answer_table(machine),
+                  provenance_table(machine.provenance)};
   check.warnings = excavator_warnings(machine, simulated);
   check.drawing = excavator_drawing(machine.profile, reach);
   return check;

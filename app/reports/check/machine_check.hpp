@@ -46,6 +46,8 @@ struct MachineCheck {
 [[nodiscard]] FactTable answer_table(const machines::ExcavatorMachine& machine);
 /// Sensors and signals that it does without, what stands in, what is not seen, what it costs.
 [[nodiscard]] FactTable capability_table(const ExcavatorProfile& profile);
+/// How long a joint's sensor may lie, and how far the tool is off by then.
+[[nodiscard]] FactTable lie_table(const ExcavatorProfile& profile);
 [[nodiscard]] FactTable provenance_table(const std::vector<machines::Provenance>& provenance);
 
 /// Where the teeth can be, over the ground.

@@ -7,7 +7,6 @@
 #include "firmware/estimation/foretold_angle.hpp"
 #include "firmware/excavator/inputs/imu_joints.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
-#include "firmware/excavator/safety/second_sensors.hpp"
 #include "firmware/excavator/stage.hpp"
 #include "firmware/safety/cycle.hpp"
 #include "firmware/safety/task_change.hpp"

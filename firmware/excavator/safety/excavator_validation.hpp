@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The excavator's signals -> machine state: freshness, validity and plausibility, then the watches
-/// of its drives and pumps.
+/// of its drives, pumps and second sensors.
 
 #include "firmware/drives/drive_validation.hpp"
 #include "firmware/drives/drive_watch.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
 #include "firmware/safety/common_inputs.hpp"
+#include "firmware/safety/witness.hpp"
 
 namespace graben {
 
@@ -68,5 +69,15 @@ struct ExcavatorWatchState {
 void watch(const ExcavatorProfile& profile, DriveRows drives, const LastCommands<kDriveCount>& last,
            const std::array<double, kPumpCount>& swash_ratio, double period_s,
            ExcavatorWatchState& state, ExcavatorValid& valid);
+
+/// Of a machine's second sensors (second_sensors.cpp).
+using SecondStates = std::array<WitnessState, kDriveCount>;
+
+/// In every mode, of every joint that has a second sensor: kWitnessDisagrees where it contradicts
+/// the first one, which stops; kWitnessMissing where it is not there, valid and in time. In motion
+/// that slows; at rest it keeps from arming, unless the profile allows to work without it. A first
+/// sensor that is lost is the validation's to find.
+void watch_seconds(const ExcavatorProfile& profile, DriveRows drives, const ExcavatorInputs& inputs,
+                   bool moving, TimeUs now_us, SecondStates& states, ExcavatorValid& valid);
 
 }  // namespace graben

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/excavator/safety/second_sensors.hpp"
-
 #include <cmath>
 
+#include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/excavator/safety/tuning.hpp"
 #include "firmware/numeric/constants.hpp"
 

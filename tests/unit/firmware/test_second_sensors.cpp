@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Second sensors of an excavator's joints, watched against what the controller goes by.
 
-#include "firmware/excavator/safety/second_sensors.hpp"
-
+#include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/safety/tuning.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_machine.hpp"
