@@ -18,13 +18,14 @@ double seconds(TimeUs from_us, TimeUs to_us) {
 
 bool contradicts(const WitnessBand& band, double first, const Signal<double>& second, bool learns,
                  TimeUs now_us, WitnessState& state) {
-  if (second.stamp_us == state.stamp_us) {
+  if (state.begun && second.stamp_us <= state.stamp_us) {
     return state.apart >= kWitnessApart;
   }
   const WitnessState last = state;
+  state.begun = true;
   state.first = first;
   state.stamp_us = second.stamp_us;
-  if (last.stamp_us == 0) {
+  if (!last.begun) {
     return false;
   }
   const double shown_ps = (first - last.first) / seconds(last.stamp_us, second.stamp_us);
@@ -43,7 +44,7 @@ bool contradicts(const WitnessBand& band, double first, const Signal<double>& se
   }
   const bool apart = strange || std::abs(difference - state.difference) >
                                     band.play + band.scale * std::abs(first - state.at) + moved;
-  state.apart = apart ? std::min(last.apart + 1, kWitnessApart) : 0;
+  state.apart = apart ? std::min(last.apart + 1, kWitnessApart + 1) : 0;
   if (learns && !strange) {
     state.difference += kWitnessLearns * (difference - state.difference);
     state.at = first;

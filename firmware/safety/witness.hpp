@@ -20,7 +20,8 @@ struct WitnessBand {
 /// Of a joint from cycle to cycle.
 struct WitnessState {
   double first = 0.0;       ///< What the first sensor showed as the second's last frame came.
-  TimeUs stamp_us = 0;      ///< Of that frame; 0: none yet.
+  bool begun = false;       ///< There was one.
+  TimeUs stamp_us = 0;      ///< Of that frame.
   bool known = false;       ///< Of the next two.
   double difference = 0.0;  ///< Of second and first as they are installed,
   double at = 0.0;          ///< learnt where the first showed this.
@@ -32,7 +33,7 @@ struct WitnessState {
 /// before; that speed times what the age may be off widens every band. They may differ by `offset`
 /// anywhere, and that difference may change by `play` from what it was before motion: `learns` says
 /// that the machine is not in motion. The first frame after a beginning is not compared; one that
-/// comes in motion begins with what it shows.
+/// comes in motion begins with what it shows. A frame that is not newer changes nothing.
 [[nodiscard]] bool contradicts(const WitnessBand& band, double first, const Signal<double>& second,
                                bool learns, TimeUs now_us, WitnessState& state);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Second sensors of an excavator's joints, watched against what the controller goes by.
 
+#include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/safety/tuning.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -19,7 +20,7 @@ struct Machine {
 
   Machine() {
     profile.drive_count = kDriveCount;
-    profile.swing.lever_m = 0.5;
+    profile.swing.lever_m = 0.25;
     profile.second = {{true, true, true, true}, 0.005, 0.01, 0.001, 0.002};
     for (unsigned i = 0; i < kAxisCount; ++i) {
       inputs.second_stroke_m[i] = {0.5 + 0.1 * i, Validity::kValid, 0};

@@ -78,6 +78,18 @@ TEST(it_lasts_until_a_frame_says_otherwise, Joint joint) {
   assert_true(joint.frame(kFirst, kFirst + 1.0));
 }
 
+TEST(a_frame_that_is_not_newer_is_none, Joint joint) {
+  joint.stamp_us = joint.now_us = 0;  // The very first may come at any time.
+  assert_false(joint.again(kFirst, kFirst));
+  joint.frames_until(kFirst);
+  repeat(5, [&] { assert_false(joint.again(kFirst, kFirst + 1.0)); });
+  joint.stamp_us -= 1;
+  repeat(5, [&] { assert_false(joint.again(kFirst, kFirst + 1.0)); });
+  assert_int_equal(joint.frames_until(kFirst + 1.0), kWitnessApart);
+  repeat(5, [&] { assert_true(joint.frame(kFirst, kFirst + 1.0)); });
+  assert_true(joint.again(kFirst, kFirst));
+}
+
 /// What they cannot be installed as is no difference to go by.
 TEST(a_lie_is_not_learnt, Joint joint) {
   joint.learns = true;
