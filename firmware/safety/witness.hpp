@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A joint with two sensors: both always compared. Neither is believed more than the other.
+/// A joint with two sensors: both always compared. Neither is believed more than the other: which
+/// of them is wrong nobody knows, and what they disagree on stops the machine. Out of motion that
+/// is learnt which they are apart by as installed, so that in motion the band need not allow for
+/// it.
 
 #include "firmware/core/time.hpp"
 #include "firmware/signals/signal.hpp"
