@@ -132,14 +132,14 @@ inline constexpr double kGuardSame_m = 0.001;
 /// Pressure by which a drive's own oil must push against its spool. [Pa; chosen: zeros of both
 /// sides' sensors together; not tried]
 inline constexpr double kDirectionZero_pa = 1.2e6;
-/// Share of the travel by which a dead band's edge may lie farther out, or in. [-; chosen:
-/// the edge is known no better, and nearer to it the oil moves a drive by itself; without it tried]
+/// Share of the travel by which a dead band's edge may be elsewhere. [-; chosen: it is known no
+/// better, and nearer to it the oil moves a drive by itself; without it tried]
 inline constexpr double kDirectionEdgeBand = 0.03;
 /// Way with its spool that may be set against way back, in bounds of the fault. [-; chosen: a drive
 /// that shakes on soft oil first goes with its spool; not tried]
 inline constexpr double kDirectionCredit = 4.0;
-/// Time constant in which it is forgotten that a side has let off. [s; chosen: a drive rings on soft
-/// oil with periods of 0.2 s and less, a fall over seconds is its load's; not tried]
+/// Time constant in which it is forgotten that a side has let off. [s; chosen: a drive rings on
+/// soft oil with periods of 0.2 s and less, a fall over seconds is its load's; not tried]
 inline constexpr double kDirectionSpringFor_s = 0.5;
 
 // Gate (drive_gate.cpp)
@@ -182,8 +182,8 @@ inline constexpr double kFlowSpreads = 2.75;
 inline constexpr double kFlowGalleryBand = 0.33;
 /// Pressure by which a sensor's zero may be off. [Pa; chosen: 1.0e6 tried before]
 inline constexpr double kFlowZero_pa = 1.2e6;
-/// Most pressure of the return line. [Pa; chosen: not tried]
-inline constexpr double kFlowReturn_pa = 0.2e6;
+/// Most pressure of the return line, and what noise leaves. [Pa; measured: 0.2e6 stops 1 of 300]
+inline constexpr double kFlowReturn_pa = 0.5e6;
 /// Share by which the flow of a valve that meters at its inlet may be off. [-; chosen: not tried]
 inline constexpr double kFlowSupplyBand = 0.2;
 
