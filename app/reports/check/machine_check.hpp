@@ -46,6 +46,8 @@ struct MachineCheck {
 [[nodiscard]] FactTable answer_table(const machines::ExcavatorMachine& machine);
 /// Sensors and signals that it does without, what stands in, what is not seen, what it costs.
 [[nodiscard]] FactTable capability_table(const ExcavatorProfile& profile);
+/// What the check at the mark sees of each sensor; with no row where there is no mark.
+[[nodiscard]] FactTable mark_table(const ExcavatorProfile& profile);
 [[nodiscard]] FactTable provenance_table(const std::vector<machines::Provenance>& provenance);
 
 /// Where the teeth can be, over the ground.

@@ -19,11 +19,11 @@ struct Plan {
   int protected_count;
 };
 // With the swing's messages, and as a machine without a swing drive has it.
-constexpr Plan kExcavator{0.40, 0.50, 17};
-constexpr Plan kWithoutSwing{0.25, 0.43, 14};
+constexpr Plan kExcavator{0.40, 0.51, 18};
+constexpr Plan kWithoutSwing{0.25, 0.43, 15};
 // With the messages of a tilt and of a track that curves, and without.
-constexpr Plan kDozer{0.30, 0.50, 14};
-constexpr Plan kWithoutTilt{0.30, 0.43, 12};
+constexpr Plan kDozer{0.30, 0.50, 15};
+constexpr Plan kWithoutTilt{0.30, 0.43, 13};
 // With what is planned (README.md of can_dbc).
 constexpr double kMostWithPlan = 0.55;
 
@@ -49,7 +49,6 @@ constexpr Planned kPlanned[] = {
     {0x0CFF4084U, 50.0, true, false},        // SecondStrokes
     {0x0CFF4184U, 20.0, true, false, true},  // SecondSwing
     {0x0CFF5E84U, 50.0, false, true},        // SecondBlade
-    {0x18FF4382U, 1.0, true, true},          // EcuChecks
     {0x0CFF4285U, 20.0, true, true},         // ExternalLimit
     {0x1CECFF82U, 20.0, true, true},         // TP.CM, and TP.DT in one row with it
     {0x1CEBFF82U, 0.0, true, true},          // TP.DT
@@ -60,7 +59,6 @@ constexpr Planned kPlanned[] = {
     {0x18E8FF82U, 5.0, true, true},          // Acknowledgement
     {0x18EEFF82U, 1.0, true, true},          // AddressClaimed
     {0x0CFF4481U, 10.0, true, true},         // AssistRequest
-    {0x0CFF4681U, 10.0, true, true},         // TouchedPoint
     {0x18FF4582U, 10.0, true, true},         // AssistStatus
 };
 

@@ -69,6 +69,8 @@ const Promise kPromises[] = {
     {46, Fault::kStalled, 'N', 31, ArmBlock::kPath},
     {48, Fault::kCommissionBound, 'N', 31, ArmBlock::kPath},
     {49, Fault::kNoWay, 'N', 31, ArmBlock::kPath},
+    {50, Fault::kMarkMissed, 'N', 14, ArmBlock::kMark},
+    {51, Fault::kMarkDue, 'W', 31, ArmBlock::kMark},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},

@@ -75,7 +75,8 @@ struct ExcavatorBus {
            dbc::excavator::BucketPressure, dbc::excavator::PumpState,
            dbc::excavator::OperatorCommand, dbc::excavator::ValveState, dbc::excavator::SwingState,
            dbc::excavator::SwingValveState, dbc::excavator::OperatorAxes,
-           dbc::excavator::CommissionDuty, dbc::excavator::CommissionWindow>;
+           dbc::excavator::CommissionDuty, dbc::excavator::CommissionWindow,
+           dbc::excavator::TouchedPoint>;
   using Unprotected = List<dbc::excavator::EEC1, dbc::excavator::MachineIdentity>;
   using Other = List<dbc::excavator::ArmStroke, dbc::excavator::ValveState,
                      dbc::excavator::SpoolCommand, dbc::excavator::PumpCommand>;
@@ -95,7 +96,7 @@ struct DozerBus {
       List<dbc::dozer::BladeStroke, dbc::dozer::BodyPosition, dbc::dozer::BodyPitch,
            dbc::dozer::BodyVelocity, dbc::dozer::LeftTransmission, dbc::dozer::RightTransmission,
            dbc::dozer::TrackSpeed, dbc::dozer::TiltState, dbc::dozer::BodyCourse, DozerCommand,
-           dbc::dozer::ValveState>;
+           dbc::dozer::ValveState, dbc::dozer::TouchedPoint>;
   using Unprotected = List<dbc::dozer::EEC1, dbc::dozer::MachineIdentity>;
   using Other = List<dbc::dozer::BodyPitch, dbc::dozer::ValveState, dbc::dozer::SpoolCommand,
                      dbc::dozer::MotorDisplacementCommand>;
