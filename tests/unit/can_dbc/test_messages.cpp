@@ -193,5 +193,5 @@ TEST(kinds_share_what_they_name_alike) {
                        is_shared && &of_dozer == same_name);
     }
   }
-  assert_int_equal(shared, 9);
+  assert_int_equal(shared, 11);
 }
