@@ -55,7 +55,7 @@ inline constexpr double kMostSlipped_m = 0.06;
 /// rises; not tried]
 inline constexpr double kPoseMostSlip = 0.3;
 /// Time constant with which the slow residuals of pitch and roll forget. [s; chosen: a drift of
-/// 8 mrad/s is seen after 2.4 s, a gyro that is off by 3 mrad/s is none; 10 lets only 1.5 be off]
+/// 8 mrad/s is seen after 2.4 s, a gyro that is off by 3 mrad/s is none; not tried]
 inline constexpr double kDriftForget_s = 5.0;
 /// Limit of the slow residuals of pitch and roll. [rad; chosen: kDriftForget_s times 3 mrad/s;
 /// healthy bodies without a gyro's zero show 2.5 mrad, `campaign grade` as below; others not tried]
@@ -63,15 +63,15 @@ inline constexpr double kMostDrift_rad = 0.015;
 /// Share of the tracks' way that may be slip while they hardly pull. [-; chosen: half of what is to
 /// be seen; healthy tracks show 0.07 at most; not tried]
 inline constexpr double kUnloadedSlip = 0.12;
-/// Traction from which more than that may be slip. [of the weight; chosen: rolling and a light cut;
-/// not tried]
+/// Traction, as a share of the weight, from which more than that may be slip. [-; chosen: rolling
+/// and a light cut; not tried]
 inline constexpr double kSlipFromTraction = 0.25;
-/// Traction beyond that with which kPoseMostSlip may be. [of the weight; chosen: loose ground slips
-/// so from half of the weight on; not tried]
+/// Traction beyond that, as a share of the weight, with which kPoseMostSlip may be. [-; chosen:
+/// loose ground slips so from half of the weight on; not tried]
 inline constexpr double kSlipOverTraction = 0.25;
 /// Limit of the slip by way beyond what the traction explains. [m; chosen: twice the 0.072 of
-/// healthy bodies that meet stones, 40 draws of `campaign grade --errors all`; without soil, in clay
-/// and sand 0.011; 0.10 tried: a pose of 0.8 is 0.16 m off at full speed in place of 0.20]
+/// healthy bodies that meet stones, 40 draws of `campaign grade --errors all`; without soil, in
+/// clay and sand 0.011; 0.10 tried: a pose of 0.8 is 0.16 m off at full speed in place of 0.20]
 inline constexpr double kMostSlips_m = 0.15;
 /// Error of a measured velocity beside slip. [m/s; chosen: above the noise of velocity and track
 /// speeds; not tried]
