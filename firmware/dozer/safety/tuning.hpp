@@ -69,10 +69,10 @@ inline constexpr double kSlipFromTraction = 0.25;
 /// Traction beyond that, as a share of the weight, with which kPoseMostSlip may be. [-; chosen:
 /// loose ground slips so from half of the weight on; not tried]
 inline constexpr double kSlipOverTraction = 0.25;
-/// Limit of the slip by way beyond what the traction explains. [m; chosen: twice the 0.072 of
-/// healthy bodies that meet stones, 40 draws of `campaign grade --errors all`; without soil, in
-/// clay and sand 0.011; 0.10 tried: a pose of 0.8 is 0.16 m off at full speed in place of 0.20]
-inline constexpr double kMostSlips_m = 0.15;
+/// Limit of the slip by way beyond what the traction explains. [m; chosen: twice the 0.155 of
+/// healthy bodies that meet stones, 100 draws of `campaign grade --errors all`; without soil, in
+/// clay and sand 0.011; 0.10 and 0.15 tried: seed 74 of these stopped]
+inline constexpr double kMostSlips_m = 0.30;
 /// Error of a measured velocity beside slip. [m/s; chosen: above the noise of velocity and track
 /// speeds; not tried]
 inline constexpr double kSlipMargin_mps = 0.1;
