@@ -6,6 +6,7 @@
 
 #include "app/machines/bus_key.hpp"
 #include "app/machines/dozer_sections.hpp"
+#include "app/machines/mark_section.hpp"
 #include "app/machines/shared_sections.hpp"
 #include "app/machines/tilt_section.hpp"
 
@@ -220,6 +221,9 @@ DozerProfile read_dozer_sections(TomlReader& reader) {
   profile.grade = read_grade(reader);
   profile.control = read_control(reader);
   profile.safety = read_safety(reader);
+  profile.mark = read_mark(reader, false,
+                           "the mark, in the world of the design: x along it, z up; the middle of "
+                           "the cutting edge is set to it");
   profile.bus = read_bus(reader, profile.control.dead_time_s);
   return profile;
 }

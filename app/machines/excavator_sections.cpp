@@ -10,6 +10,7 @@
 #include "app/machines/body_section.hpp"
 #include "app/machines/bus_key.hpp"
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/mark_section.hpp"
 #include "app/machines/oil_section.hpp"
 #include "app/machines/pump_section.hpp"
 #include "app/machines/sensor_section.hpp"
@@ -356,6 +357,9 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader, const std::vector<K
   read_joint_sensors(reader, profile);
   check_law(reader, profile);
   profile.safety = read_safety(reader);
+  profile.mark = read_mark(reader, profile.has_swing(),
+                           "the mark, over the ground, from the swing axis: x forward, where the "
+                           "machine swings y to the left, z up");
   profile.bus = read_bus(reader, shortest_dead_time_s(profile), all);
   return profile;
 }

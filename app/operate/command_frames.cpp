@@ -16,6 +16,9 @@ static_assert(CommandFrames::kPeriod_us == Command::kCycleTimeMs * kMillisecondU
 constexpr SendRule kCommandRule = send_rule<Command>(0, nullptr);
 constexpr SendRule kAxesRule = send_rule<Dbc::OperatorAxes>(0, nullptr);
 
+using Touched = Dbc::TouchedPoint;
+constexpr SendRule kTouchRule = send_rule<Touched>(0, nullptr);
+
 dbc::Payload command_payload(const Request& request, dbc::Count echo) {
   Command command;
   command.enable = {request.enable ? Command::Enable::kOn : Command::Enable::kOff, kValid};
@@ -44,6 +47,24 @@ CommandPair CommandFrames::next(const Request& request, dbc::Count echo, TimeUs 
 
 CommandPair CommandFrames::last_words(TimeUs now) const {
   return CommandFrames(*this).next({}, {0, dbc::RawState::kNotAvailable}, now);
+}
+
+void TouchFrames::begin(TimeUs now) {
+  number_ = static_cast<std::uint8_t>(number_ < Touched::kNumber.raw_max ? number_ + 1 : 0);
+  has_begun_ = true;
+  until_us_ = now + kSaid_us;
+  next_us_ = now;
+}
+
+std::optional<CanFrame> TouchFrames::next(TimeUs now) {
+  if (!has_begun_ || now < next_us_ || now >= until_us_) {
+    return std::nullopt;
+  }
+  next_us_ = now + kTouchRule.period_us;
+  Touched message;
+  message.number = {number_, kValid};
+  message.kind = {Touched::Kind::kMark, kValid};
+  return next_frame(kTouchRule, touch_, message.encode(), now);
 }
 
 }  // namespace graben::operate

@@ -3,6 +3,8 @@
 /// The station's frames.
 
 #include <array>
+#include <cstdint>
+#include <optional>
 
 #include "app/operate/station.hpp"
 #include "can_dbc/codec.hpp"
@@ -27,6 +29,24 @@ class CommandFrames {
  private:
   SendState command_;
   SendState axes_;
+};
+
+/// Says for 1 s that the tool is at the mark.
+class TouchFrames {
+ public:
+  static constexpr TimeUs kSaid_us = kSecondUs;
+
+  /// The operator says so: a touch of its own, whatever was said before.
+  void begin(TimeUs now);
+  /// Once a cycle: the frame that is due.
+  [[nodiscard]] std::optional<CanFrame> next(TimeUs now);
+
+ private:
+  SendState touch_;
+  std::uint8_t number_ = 0;
+  bool has_begun_ = false;
+  TimeUs until_us_ = 0;
+  TimeUs next_us_ = 0;
 };
 
 }  // namespace graben::operate

@@ -66,6 +66,7 @@ void EcuListener::hear(const CanFrame& frame, TimeUs now) {
   take(frame, now, identity_);
   take(frame, now, task_);
   take(frame, now, tip_load_);
+  take(frame, now, checks_);
   take(frame, now, spools_);
   take_stroke(frame, &Dbc::BoomStroke::boom_stroke_m, now, strokes_[0]);
   take_stroke(frame, &Dbc::ArmStroke::arm_stroke_m, now, strokes_[1]);

@@ -42,6 +42,7 @@ class EcuListener {
   [[nodiscard]] const Heard<Dbc::EcuIdentity>& identity() const { return identity_; }
   [[nodiscard]] const Heard<Dbc::TaskStatus>& task() const { return task_; }
   [[nodiscard]] const Heard<Dbc::EcuTipLoad>& tip_load() const { return tip_load_; }
+  [[nodiscard]] const Heard<Dbc::EcuChecks>& checks() const { return checks_; }
   /// Of boom, arm, bucket; empty where none came of late, or none that is valid.
   [[nodiscard]] std::array<std::optional<double>, 3> strokes_m(TimeUs now) const;
   /// Duties of boom, arm and bucket as the controller sent them last; 0 before.
@@ -78,6 +79,7 @@ class EcuListener {
   Heard<Dbc::EcuIdentity> identity_;
   Heard<Dbc::TaskStatus> task_;
   Heard<Dbc::EcuTipLoad> tip_load_;
+  Heard<Dbc::EcuChecks> checks_;
   Heard<Dbc::SpoolCommand> spools_;
   std::array<Stroke, 3> strokes_;
   std::map<std::uint32_t, TimeUs> trouble_us_;  ///< SPN -> when it was said last.

@@ -76,6 +76,8 @@ void note_press(const input_event& event, Hands& hands) {
     hands.changes_mode = !hands.changes_mode;
   } else if (is_button && event.code == kTaskButton) {
     hands.changes_task = !hands.changes_task;
+  } else if (is_button && event.code == kMarkButton) {
+    hands.at_mark = true;
   } else if (is_button && event.code == BTN_DPAD_UP) {
     ++hands.speed_steps;
   } else if (is_button && event.code == BTN_DPAD_DOWN) {

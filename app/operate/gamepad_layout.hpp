@@ -15,6 +15,7 @@ namespace graben::operate {
 inline constexpr unsigned kDeadmanButton = BTN_TL;
 inline constexpr unsigned kModeButton = BTN_START;
 inline constexpr unsigned kTaskButton = BTN_SELECT;
+inline constexpr unsigned kMarkButton = BTN_NORTH;
 
 /// Empty if the station can work with the device; else what it lacks.
 [[nodiscard]] std::string what_is_missing(const libevdev* device);
@@ -23,7 +24,7 @@ inline constexpr unsigned kTaskButton = BTN_SELECT;
 /// stick is the left lever, the right stick the right one.
 [[nodiscard]] Hands hands_of(const libevdev* device);
 
-/// Adds what an event presses: mode, task, and with the d-pad's up and down the speed.
+/// Adds what an event presses: mode, task, mark, and with the d-pad's up and down the speed.
 void note_press(const input_event& event, Hands& hands);
 
 }  // namespace graben::operate

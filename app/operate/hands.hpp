@@ -20,6 +20,7 @@ struct Hands {
   int speed_steps = 0;  ///< Faster is positive.
   bool changes_mode = false;
   bool changes_task = false;
+  bool at_mark = false;  ///< The tool is at the mark.
   bool quits = false;
 };
 

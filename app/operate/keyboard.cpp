@@ -36,7 +36,8 @@ const LeverKey* lever_key(char key) {
 
 const char* keyboard_help() {
   return "Space, held: enable; then, held instead: e d arm, s f swing, i k boom, j l bucket.\n"
-         "m mode, t task, + - speed, any other key: let go, q: end. Not for a machine";
+         "m mode, t task, + - speed, p: teeth at the mark, any other key: let go, q: end.\n"
+         "Not for a machine";
 }
 
 void KeyHold::press(char key, Hands& presses, TimeUs now) {
@@ -52,6 +53,9 @@ void KeyHold::press(char key, Hands& presses, TimeUs now) {
       return;
     case 't':
       presses.changes_task = !presses.changes_task;
+      return;
+    case 'p':
+      presses.at_mark = true;
       return;
     case '+':
       ++presses.speed_steps;

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "app/ecu/end_signals.hpp"
@@ -50,6 +52,7 @@ class Session {
   OperateOptions options_;
   BusLink link_;
   CommandFrames frames_;
+  TouchFrames touch_;
   ecu::EndSignals signals_{link_.last_frames(), link_.ports()};
   std::unique_ptr<HandSource> hands_;
   Station station_;
@@ -63,6 +66,9 @@ void Session::send(const Request& request, TimeUs now) {
   const CommandPair pair = frames_.next(request, link_.ecu().echo(), now);
   const CommandPair last = frames_.last_words(now);
   link_.send(pair, last);
+  if (const std::optional<CanFrame> touch = touch_.next(now)) {
+    link_.send(std::array<CanFrame, 1>{*touch}, last);
+  }
 }
 
 void Session::listen() {
@@ -90,6 +96,9 @@ void Session::work() {
     const Trouble trouble =
         at.skipped >= kLateCycles ? Trouble::kStationLate : link_.trouble(at.now_us);
     request_ = station_.step(hands, {trouble, link_.ecu().mode(at.now_us)});
+    if (hands.at_mark) {
+      touch_.begin(at.now_us);
+    }
     send(request_, at.now_us);
     show(hands, cycle, at.now_us);
     quits = hands.quits;

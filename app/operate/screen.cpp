@@ -124,6 +124,39 @@ std::string load_text(const EcuListener& ecu, TimeUs now) {
   return text;
 }
 
+const char* refused_words(Dbc::EcuChecks::Touch touch) {
+  using Touch = Dbc::EcuChecks::Touch;
+  switch (touch) {
+    case Touch::kMoving:
+      return "; last touch refused: the teeth were not still";
+    case Touch::kNotByHand:
+      return "; last touch refused: choose Manual first";
+    case Touch::kNotKnown:
+      return "; last touch refused: where the teeth are was not known";
+    default:
+      return "";
+  }
+}
+
+/// Empty where the profile has no mark, or the controller does not say.
+std::string mark_text(const EcuListener& ecu, TimeUs now) {
+  using Result = Dbc::EcuChecks::Result;
+  constexpr TimeUs kOld_us = 2500 * kMillisecondUs;
+  const auto& heard = ecu.checks();
+  if (!heard.is_fresh(now, kOld_us) || heard.said->result.value == Result::kNoMark) {
+    return "";
+  }
+  const Dbc::EcuChecks& checks = *heard.said;
+  if (checks.result.value == Result::kNever) {
+    return std::string("not checked since the start") + refused_words(checks.touch.value);
+  }
+  const auto mm = [](const dbc::Physical& way) { return std::lround(1e3 * way.value); };
+  return fmt::format("{} {:.0f} min ago: {:+d} mm outwards, {:+d} across, {:+d} up{}",
+                     checks.result.value == Result::kPassed ? "checked" : "MISSED",
+                     checks.age_s.value / 60.0, mm(checks.off_outwards_m), mm(checks.off_across_m),
+                     mm(checks.off_up_m), refused_words(checks.touch.value));
+}
+
 std::string also_text(const EcuListener& ecu, TimeUs now) {
   std::string text;
   for (const Fault fault : ecu.faults(now)) {
@@ -168,6 +201,9 @@ void put_controller(std::vector<std::string>& lines, const View& view) {
   put(lines, "Lambda", lambda_text(*ecu.status().said));
   if (const std::string load = load_text(ecu, view.now_us); !load.empty()) {
     put(lines, "Tip force", load);
+  }
+  if (const std::string mark = mark_text(ecu, view.now_us); !mark.empty()) {
+    put(lines, "Mark", mark);
   }
 }
 

@@ -120,6 +120,13 @@ class OperatorNode {
   /// From now on, until it is called again; may be called every cycle.
   void set_hands(const OperatorHands& hands) { hands_ = hands; }
 
+  /// From the next step on, for 1 s: the tool is at the mark.
+  void touch_mark() {
+    constexpr std::uint8_t kNumbers = 251;
+    touch_number_ = static_cast<std::uint8_t>((touch_number_ + 1) % kNumbers);
+    touch_cycles_ = kTouchCycles;
+  }
+
   /// To be called every 10 ms; sends in the first and every second call.
   void step(TimeUs now) {
     constexpr std::uint64_t kSendCycles = Command::kCycleTimeMs / 10;
@@ -130,6 +137,7 @@ class OperatorNode {
     if constexpr (detail::kHasHands<Dbc>) {
       send_hands(now);
     }
+    send_touch(now);
     ++cycle_;
     sender_.send_late(faults_, now);
   }
@@ -144,6 +152,21 @@ class OperatorNode {
 
  private:
   using Command = typename Dbc::OperatorCommand;
+  using Touch = typename Dbc::TouchedPoint;
+  static constexpr int kTouchCycles = 100;
+
+  void send_touch(TimeUs now) {
+    if (touch_cycles_ == 0) {
+      return;
+    }
+    if (touch_cycles_ % static_cast<int>(Touch::kCycleTimeMs / 10) == 0) {
+      Touch touch;
+      touch.number = {touch_number_, dbc::RawState::kValid};
+      touch.kind = {Touch::Kind::kMark, dbc::RawState::kValid};
+      sender_.send(touch, faults_, now);
+    }
+    --touch_cycles_;
+  }
 
   void send_hands(TimeUs now) {
     if (!hands_) {
@@ -175,6 +198,8 @@ class OperatorNode {
   std::vector<OperatorPhase> schedule_;
   std::optional<OperatorHands> hands_;
   std::size_t turn_ = kAxisCount - 1;  ///< Whose window was sent last.
+  std::uint8_t touch_number_ = 0;
+  int touch_cycles_ = 0;  ///< Left of the one that is said.
   std::uint64_t cycle_ = 0;
 };
 

@@ -34,6 +34,7 @@ UNITS = {
     "deg/s": Unit("_radps", "rad/s", Fraction(1, 180), times_pi=True),
     "m/s2": Unit("_mps2", "m/s^2", Fraction(1)),
     "ms": Unit("_s", "s", Fraction(1, 1000)),
+    "min": Unit("_s", "s", Fraction(60)),
     "kN": Unit("_n", "N", Fraction(1000)),
     "kg": Unit("_kg", "kg", Fraction(1)),
     "MPa": Unit("_pa", "Pa", Fraction(1_000_000)),

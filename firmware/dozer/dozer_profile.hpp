@@ -8,6 +8,7 @@
 #include <array>
 
 #include "firmware/dozer/dozer_signals.hpp"
+#include "firmware/machine/mark.hpp"
 #include "firmware/machine/spool_answer.hpp"
 #include "firmware/machine/valve.hpp"
 #include "firmware/signals/bus_capabilities.hpp"
@@ -214,6 +215,7 @@ struct DozerProfile {
   GradeDesign grade;
   DozerControl control;
   DozerSafety safety;
+  MarkProfile mark;
 };
 
 }  // namespace graben

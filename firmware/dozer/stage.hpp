@@ -5,6 +5,7 @@
 #include "firmware/dozer/blade.hpp"
 #include "firmware/dozer/safety/dozer_watch.hpp"
 #include "firmware/dozer/tilt.hpp"
+#include "firmware/safety/mark_check.hpp"
 #include "firmware/safety/stall_watch.hpp"
 #include "firmware/safety/tube.hpp"
 
@@ -30,6 +31,7 @@ struct DozerLastCycle {
   StallState stall;
   TubeState tube;       ///< Around the design.
   TubeState off_track;  ///< Around a track that curves.
+  MarkState mark;
 };
 
 }  // namespace graben

@@ -33,6 +33,8 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
                                   followed, cycle, is.last, decision, is.output, outputs);
   end_cycle(decision, valid, is.cycle, outputs, outputs.status);
   tell_seen(machine_, is.inputs, is.estimates, outputs.status);
+  check_mark(machine_, valid, is.estimates.pose, inputs.driver.mark_touch, now_us, cycle.elapsed_s,
+             is.last.mark, outputs.status);
   if (decision.active()) {
     tell_motion(machine_, is.inputs, motion, followed, valid.degraded, outputs.status);
   }

@@ -12,6 +12,7 @@
 
 #include "firmware/core/codes.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/machine/mark.hpp"
 #include "firmware/machine/spool_answer.hpp"
 #include "firmware/machine/valve.hpp"
 #include "firmware/signals/bus_capabilities.hpp"
@@ -325,6 +326,7 @@ struct ExcavatorProfile {
   ImuProfile imu;  ///< Without any, strokes are measured.
   SecondSensors second;
   SafetyProfile safety;
+  MarkProfile mark;
 
   [[nodiscard]] bool has_swing() const { return drive_count == kDriveCount; }
   /// Angles of joints or links come late, and count as of the time of their frames.

@@ -7,6 +7,7 @@
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
+#include "firmware/safety/mark_check.hpp"
 #include "firmware/safety/stall_watch.hpp"
 #include "firmware/safety/tube.hpp"
 
@@ -40,6 +41,7 @@ struct LastCycle {
   bool jogs = false;              ///< Drives that are not told to move are nobody's.
   StallState stall;
   TubeState tube;
+  MarkState mark;
 };
 
 }  // namespace graben

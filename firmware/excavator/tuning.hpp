@@ -27,7 +27,8 @@ inline constexpr double kStrokeUnseenShare = 0.3;
 /// Way of the tip by which a cylinder may be off from what was asked. [m; chosen: healthy ones stay
 /// within 0.14 at all speeds in 60 draws with `lie_cases`, but an arm in soil; 0.20 tried]
 inline constexpr double kStrokeWayTip_m = 0.16;
-/// Bounds of that as a stroke, from below ... [m; measured: 0.025 stops 1 of 40 slow draws in soil]
+/// Bounds of that as a stroke, from below ... [m; chosen: 0.025 tried, 1 of 40 slow draws in soil
+/// stops]
 inline constexpr double kStrokeWayLeast_m = 0.035;
 /// ... and from above. [m; chosen: the same; not tried]
 inline constexpr double kStrokeWayMost_m = 0.08;

@@ -73,4 +73,15 @@ inline constexpr double kStandstill_s = 0.2;
 /// down, make it give on its oil; not tried]
 inline constexpr double kStandstill_m = 0.01;
 
+// The tool at its mark (mark_check.cpp)
+
+/// Time for which a touch counts as said. [s; derived: three periods of TouchedPoint]
+inline constexpr double kTouchHolds_s = 0.3;
+/// Time for which the tool is still before a touch is taken. [s; chosen: oil rings down; not tried]
+inline constexpr double kMarkRest_s = 0.5;
+/// Way up to which the tool is still. [m; chosen: a stroke's noise, times the links; not tried]
+inline constexpr double kMarkRest_m = 0.005;
+/// Checks that are counted. [-; size: EcuChecks.Checks]
+inline constexpr int kMostMarkChecks = 250;
+
 }  // namespace graben

@@ -2,6 +2,7 @@
 #pragma once
 /// Signals that every machine kind's controller takes in and gives out beside its own. SI units.
 
+#include <Eigen/Core>
 #include <cstdint>
 
 #include "firmware/core/codes.hpp"
@@ -30,6 +31,7 @@ struct OperatorInputs {
   Signal<Task> task;
   Signal<double> speed_override_ratio;  ///< 0 .. 1 of the task's speed.
   Signal<std::uint8_t> task_number;     ///< Which of the task files kProgram means.
+  Signal<std::uint8_t> mark_touch;      ///< The tool is at the mark: the touch's number.
 };
 
 /// What the operator has confirmed for a drive in Task::kCommission.
@@ -78,6 +80,29 @@ struct MachineOutputs {
   bool pilot_known = false;
 };
 
+/// What came of the last check of the tool at its mark; the numbers are on the bus.
+enum class MarkResult : std::uint8_t { kNoMark = 0, kNever = 1, kPassed = 2, kMissed = 3 };
+
+/// What became of the last touch of the mark; the numbers are on the bus.
+enum class MarkTouch : std::uint8_t {
+  kNone = 0,
+  kTaken = 1,      ///< It is the last check.
+  kMoving = 2,     ///< Refused: the tool was not still.
+  kNotByHand = 3,  ///< Refused: the operator did not have the machine.
+  kNotKnown = 4,   ///< Refused: where the tool is was not known.
+};
+
+/// The last check of the tool at its mark.
+struct MarkTold {
+  MarkResult result = MarkResult::kNoMark;
+  MarkTouch touch = MarkTouch::kNone;
+  std::uint8_t count = 0;    ///< Checks since the start; stays at 250.
+  double age_s = 0.0;        ///< Of the check; without one, of the controller.
+  double tolerance_m = 0.0;  ///< The profile's.
+  /// Shown tool less mark: outwards as the tool looks, to the left of that, up.
+  Eigen::Vector3d off_m = Eigen::Vector3d::Zero();
+};
+
 /// Status of a controller; nothing of it moves metal.
 struct MachineStatus {
   EcuMode mode = EcuMode::kSilent;
@@ -87,6 +112,7 @@ struct MachineStatus {
   Limit limit;
   bool stand_in = false;  ///< The bus, or a station, lacks something that is checked elsewhere.
   double lambda = 0.0;    ///< Share of the wanted speed that is followed, 0 .. 1.
+  MarkTold mark;          ///< Told in every mode.
 };
 
 }  // namespace graben

@@ -31,6 +31,20 @@ static_assert(same_code(BusTask::kCoordinated, Task::kCoordinated));
 static_assert(same_code(BusTask::kCommission, Task::kCommission));
 static_assert(same_code(bus::OperatorCommand::kTask.raw_max, Task::kCommission));
 
+using BusMark = bus::EcuChecks::Result;
+static_assert(same_code(BusMark::kNoMark, MarkResult::kNoMark));
+static_assert(same_code(BusMark::kNever, MarkResult::kNever));
+static_assert(same_code(BusMark::kPassed, MarkResult::kPassed));
+static_assert(same_code(BusMark::kMissed, MarkResult::kMissed));
+static_assert(same_code(bus::EcuChecks::kResult.raw_max, MarkResult::kMissed));
+using BusTouch = bus::EcuChecks::Touch;
+static_assert(same_code(BusTouch::kNone, MarkTouch::kNone));
+static_assert(same_code(BusTouch::kTaken, MarkTouch::kTaken));
+static_assert(same_code(BusTouch::kMoving, MarkTouch::kMoving));
+static_assert(same_code(BusTouch::kNotByHand, MarkTouch::kNotByHand));
+static_assert(same_code(BusTouch::kNotKnown, MarkTouch::kNotKnown));
+static_assert(same_code(bus::EcuChecks::kTouch.raw_max, MarkTouch::kNotKnown));
+
 // faults.toml and limits.toml are behind both sides of these.
 static_assert(bus::EcuStatus::kFault.raw_max == kFaultCount - 1);
 static_assert(bus::EcuStatus::kLimitKind.raw_max == kLimitKindCount - 1);
@@ -93,6 +107,24 @@ bus::EcuIdentity ecu_identity(const EcuDiagnosis& diagnosis, std::uint8_t dbc_ve
   message.profile_hash = count(diagnosis.profile_hash);
   message.dbc_version = count(dbc_version);
   message.stamp = count(diagnosis.stamp);
+  return message;
+}
+
+bus::EcuChecks ecu_checks(const MarkTold& mark) {
+  bus::EcuChecks message;  // its start values are 'not available'
+  message.result = coded<bus::EcuChecks::Result>(mark.result);
+  message.touch = coded<bus::EcuChecks::Touch>(mark.touch);
+  if (mark.result == MarkResult::kNoMark) {
+    return message;
+  }
+  message.tolerance_m = physical(mark.tolerance_m);
+  message.checks = count(mark.count);
+  if (mark.count > 0) {
+    message.age_s = physical(mark.age_s);
+    message.off_outwards_m = physical(mark.off_m.x());
+    message.off_across_m = physical(mark.off_m.y());
+    message.off_up_m = physical(mark.off_m.z());
+  }
   return message;
 }
 

@@ -16,8 +16,8 @@ constexpr bool same_code(Bus bus_code, Own own_code) {
 }
 
 /// Those that a controller receives.
-using CommonReceived =
-    dbc::MessageList<dbc::common::EEC1, dbc::common::OperatorCommand, dbc::common::MachineIdentity>;
+using CommonReceived = dbc::MessageList<dbc::common::EEC1, dbc::common::OperatorCommand,
+                                        dbc::common::TouchedPoint, dbc::common::MachineIdentity>;
 
 void store_operator(const dbc::common::OperatorCommand& message, TimeUs now, OperatorInputs& to);
 void store_identity(const dbc::common::MachineIdentity& message, TimeUs now, PartnerIdentity& to);
@@ -48,6 +48,9 @@ struct CommonStore {
     store_operator(message, now, to.inputs.driver);
     put(to.echoes.driver, message.echo, now);
   }
+  static void store(const dbc::common::TouchedPoint& message, TimeUs now, To& to) {
+    put(to.inputs.driver.mark_touch, message.number, now);
+  }
   static void store(const dbc::common::MachineIdentity& message, TimeUs now, To& to) {
     store_identity(message, now, to.identity);
     put(to.echoes.machine, message.echo, now);
@@ -71,6 +74,7 @@ void set_pilot_cut(SpoolCommand& message, const Outputs& outputs) {
                                                 const EcuDiagnosis& diagnosis);
 [[nodiscard]] dbc::common::EcuIdentity ecu_identity(const EcuDiagnosis& diagnosis,
                                                     std::uint8_t dbc_version);
+[[nodiscard]] dbc::common::EcuChecks ecu_checks(const MarkTold& mark);
 [[nodiscard]] dbc::Payload encode_trouble(const Dm1Content& content);
 
 template <class Outputs>
@@ -80,6 +84,10 @@ dbc::common::EcuStatus status_of(const Outputs& outputs, const EcuDiagnosis& dia
 template <class Outputs>
 dbc::common::EcuHealth health_of(const Outputs& outputs, const EcuDiagnosis& diagnosis) {
   return ecu_health(outputs.status, diagnosis);
+}
+template <class Outputs>
+dbc::common::EcuChecks checks_of(const Outputs& outputs, const EcuDiagnosis&) {
+  return ecu_checks(outputs.status.mark);
 }
 template <class Outputs, std::uint8_t dbc_version>
 dbc::common::EcuIdentity identity_of(const Outputs&, const EcuDiagnosis& diagnosis) {
@@ -94,6 +102,10 @@ constexpr auto ecu_status_row() {
 template <class Outputs>
 constexpr auto ecu_health_row() {
   return send_row<Outputs, dbc::common::EcuHealth, health_of<Outputs>>(5 * kControlPeriod_us);
+}
+template <class Outputs>
+constexpr auto ecu_checks_row() {
+  return send_row<Outputs, dbc::common::EcuChecks, checks_of<Outputs>>(8 * kControlPeriod_us);
 }
 template <class Outputs, std::uint8_t dbc_version>
 constexpr auto ecu_identity_row() {

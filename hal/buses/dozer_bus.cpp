@@ -145,7 +145,7 @@ constexpr auto kSendTable = bus_send_table(
     row<bus::MotorDisplacementCommand, motor_command>(0), ecu_status_row<DozerOutputs>(),
     row<bus::EcuMotion, ecu_motion>(kControlPeriod_us),
     row<bus::EcuGrade, ecu_grade>(kControlPeriod_us), ecu_health_row<DozerOutputs>(),
-    ecu_identity_row<DozerOutputs, bus::kDbcVersion>());
+    ecu_checks_row<DozerOutputs>(), ecu_identity_row<DozerOutputs, bus::kDbcVersion>());
 
 }  // namespace
 

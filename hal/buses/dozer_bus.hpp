@@ -12,7 +12,7 @@ namespace graben {
 /// like one whose value is out of range.
 struct DozerReception {
   using Inputs = DozerInputs;
-  static constexpr int kMessageCount = 13;
+  static constexpr int kMessageCount = 14;
   [[nodiscard]] static const ReceiveTable<Inputs, kMessageCount>& table();
 };
 
@@ -24,7 +24,7 @@ using DozerReceiver = MessageReceiver<DozerReception>;
 ///   PumpDisplacementCommand, MotorDisplacementCommand   10 ms
 ///   EcuStatus, EcuMotion, EcuGrade                      20 ms
 ///   EcuHealth                                          100 ms
-///   EcuIdentity                                          1 s
+///   EcuIdentity, EcuChecks                               1 s
 ///   DM1                                                as hal/link/dm1.hpp says
 ///
 /// What they say of the tilt is not available where the machine has none.
@@ -34,7 +34,7 @@ using DozerReceiver = MessageReceiver<DozerReception>;
 /// sent whatever else is.
 struct DozerTransmission {
   using Outputs = DozerOutputs;
-  static constexpr int kPeriodicCount = 8;
+  static constexpr int kPeriodicCount = 9;
   [[nodiscard]] static const SendTable<Outputs, kPeriodicCount>& table();
 };
 

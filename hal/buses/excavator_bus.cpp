@@ -259,7 +259,7 @@ constexpr auto kSendTable = bus_send_table(
     row<bus::TaskStatus, task_status>(kControlPeriod_us),
     row<bus::EcuLearntValves, learnt_valves>(4 * kControlPeriod_us),
     row<bus::EcuTipLoad, tip_load>(6 * kControlPeriod_us), ecu_health_row<ExcavatorOutputs>(),
-    ecu_identity_row<ExcavatorOutputs, bus::kDbcVersion>());
+    ecu_checks_row<ExcavatorOutputs>(), ecu_identity_row<ExcavatorOutputs, bus::kDbcVersion>());
 
 }  // namespace
 

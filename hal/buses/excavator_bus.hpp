@@ -16,7 +16,7 @@ namespace graben {
 /// refused like one whose value is out of range.
 struct ExcavatorReception {
   using Inputs = ExcavatorInputs;
-  static constexpr int kMessageCount = 18;
+  static constexpr int kMessageCount = 19;
   [[nodiscard]] static const ReceiveTable<Inputs, kMessageCount>& table();
 };
 
@@ -67,7 +67,7 @@ class ExcavatorReceiver : public MessageReceiver<ExcavatorReception> {
 ///   PumpCommand, EcuStatus, EcuMotion, EcuHydraulics    20 ms
 ///   TaskStatus                                          20 ms
 ///   EcuHealth, EcuLearntValves, EcuTipLoad             100 ms
-///   EcuIdentity                                          1 s
+///   EcuIdentity, EcuChecks                               1 s
 ///   DM1                                                as hal/link/dm1.hpp says
 ///
 /// Without enable, and if any duty is not finite, SpoolCommand and SwingCommand say Off and neutral
@@ -75,7 +75,7 @@ class ExcavatorReceiver : public MessageReceiver<ExcavatorReception> {
 /// finite or not above 0. PilotCut is sent whatever else is.
 struct ExcavatorTransmission {
   using Outputs = ExcavatorOutputs;
-  static constexpr int kPeriodicCount = 11;
+  static constexpr int kPeriodicCount = 12;
   [[nodiscard]] static const SendTable<Outputs, kPeriodicCount>& table();
 };
 

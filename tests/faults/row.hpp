@@ -102,6 +102,8 @@ template <class Kind>
 [[nodiscard]] Rows<Dozer> pose_rows();              ///< 54, 60
 [[nodiscard]] Rows<Dozer> tilt_rows(const Dozer&);  ///< 78, 79
 [[nodiscard]] Rows<Excavator> tilt_rows(const Excavator&);
+[[nodiscard]] Rows<Excavator> mark_rows(const Excavator&);  ///< 86
+[[nodiscard]] Rows<Dozer> mark_rows(const Dozer&);
 [[nodiscard]] Rows<Excavator> stroke_rows();  ///< 55, 82 - 84: a dozer has one stroke.
 /// All of a kind, by their numbers.
 template <class Kind>

@@ -28,12 +28,12 @@ struct ExcavatorBus : ecu::ExcavatorKind {
     return id == Dbc::SwingState::kId || id == Dbc::SwingValveState::kId ||
            id == Dbc::OperatorAxes::kId || id == Dbc::CommissionDuty::kId ||
            id == Dbc::CommissionWindow::kId || id == Dbc::SecondStrokes::kId ||
-           id == Dbc::SecondSwing::kId;
+           id == Dbc::SecondSwing::kId || id == Dbc::TouchedPoint::kId;
   }
   /// Whether its values may be not available.
   [[nodiscard]] static bool may_miss(std::uint32_t id) {
     return id == Dbc::PumpCommand::kId || id == Dbc::EcuLearntValves::kId ||
-           id == Dbc::EcuTipLoad::kId || id == Dbc::TaskStatus::kId;
+           id == Dbc::EcuTipLoad::kId || id == Dbc::TaskStatus::kId || id == Dbc::EcuChecks::kId;
   }
   [[nodiscard]] static std::array<double, kSpools> duties(const Dbc::SpoolCommand& command);
   /// The duty at which a spool begins to open.

@@ -267,6 +267,9 @@ MachineCheck check_machine(const machines::ExcavatorMachine& machine,
                   lie_table(machine.profile),
                   answer_table(machine),
                   provenance_table(machine.provenance)};
+  if (machine.profile.mark.known()) {
+    check.tables.push_back(mark_table(machine.profile));
+  }
   check.warnings = excavator_warnings(machine, simulated);
   check.drawing = excavator_drawing(machine.profile, reach);
   return check;

@@ -48,6 +48,8 @@ struct MachineCheck {
 [[nodiscard]] FactTable capability_table(const ExcavatorProfile& profile);
 /// How long a joint's sensor may lie, and how far the tool is off by then.
 [[nodiscard]] FactTable lie_table(const ExcavatorProfile& profile);
+/// What the check at the mark sees of each sensor; with no row where there is no mark.
+[[nodiscard]] FactTable mark_table(const ExcavatorProfile& profile);
 [[nodiscard]] FactTable provenance_table(const std::vector<machines::Provenance>& provenance);
 
 /// Where the teeth can be, over the ground.

@@ -32,6 +32,26 @@ double least_beyond_slip(const GroundSpeeds& speeds, double ground_mps) {
   return least_mps;
 }
 
+/// Slip that a traction explains, as a share of the tracks' speed.
+double slip_share(double traction_share) {
+  const double loaded = (traction_share - kSlipFromTraction) / kSlipOverTraction;
+  return kUnloadedSlip + (kPoseMostSlip - kUnloadedSlip) * std::clamp(loaded, 0.0, 1.0);
+}
+
+/// What the body is told to be slower, or faster, than the tracks beyond what their traction
+/// explains, summed up over their way from where that begins.
+void next_way(const GroundSpeeds& speeds, double ground_mps, double period_s,
+              PoseWatchState& state) {
+  const double tracks_mps = speeds.way_mps;
+  if (!(std::abs(tracks_mps) > kTrackAtRest_mps) || !(speeds.traction_share > 0.0)) {
+    return;
+  }
+  const double slower_mps = std::copysign(1.0, tracks_mps) * (tracks_mps - ground_mps);
+  const double may_mps = slip_share(speeds.traction_share) * std::abs(tracks_mps);
+  state.behind_m = std::max(0.0, state.behind_m + (slower_mps - may_mps) * period_s);
+  state.before_m = std::max(0.0, state.before_m - (slower_mps + may_mps) * period_s);
+}
+
 bool exceeds(double residual, double most) { return !(std::abs(residual) <= most); }
 
 }  // namespace
@@ -43,6 +63,7 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double curv
     state.has_begun = true;
   } else {
     const double kept = std::max(0.0, 1.0 - period_s / kPoseForget_s);
+    const double kept_long = std::max(0.0, 1.0 - period_s / kDriftForget_s);
     const double tips_mps = kTippingArm_m * std::abs(valid.pitch_rate_radps);
     const double uphill_mps =
         beyond(valid.climb_mps - valid.velocity_mps * std::tan(valid.pitch_rad), tips_mps);
@@ -53,6 +74,10 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double curv
          state.turned_rad);
     next(valid.roll_rad - state.roll_rad - valid.roll_rate_radps * period_s, kept,
          state.rolled_rad);
+    next(valid.pitch_rad - state.pitch_rad - valid.pitch_rate_radps * period_s, kept_long,
+         state.nods_rad);
+    next(valid.roll_rad - state.roll_rad - valid.roll_rate_radps * period_s, kept_long,
+         state.rocks_rad);
     next(valid.course.offset_m - state.offset_m -
              valid.velocity_mps * std::sin(valid.course.heading_rad) * period_s,
          kept, state.aside_m);
@@ -62,6 +87,7 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double curv
          state.yawed_rad);
     next(uphill_mps * period_s, std::max(0.0, 1.0 - period_s / kSlopeForget_s), state.uphill_m);
     next(least_beyond_slip(speeds, ground_mps) * period_s, kept, state.slipped_m);
+    next_way(speeds, ground_mps, period_s, state);
   }
   state.position_m = valid.position_m;
   state.height_m = valid.height_m;
@@ -72,7 +98,9 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double curv
   return exceeds(state.ahead_m, kMostAhead_m) || exceeds(state.climbed_m, kMostClimbed_m) ||
          exceeds(state.turned_rad, kMostTurned_rad) || exceeds(state.rolled_rad, kMostTurned_rad) ||
          exceeds(state.aside_m, kMostAhead_m) || exceeds(state.yawed_rad, kMostYawed_rad) ||
-         exceeds(state.uphill_m, kMostUphill_m) || exceeds(state.slipped_m, kMostSlipped_m);
+         exceeds(state.uphill_m, kMostUphill_m) || exceeds(state.slipped_m, kMostSlipped_m) ||
+         exceeds(state.nods_rad, kMostDrift_rad) || exceeds(state.rocks_rad, kMostDrift_rad) ||
+         exceeds(state.behind_m, kMostSlips_m) || exceeds(state.before_m, kMostSlips_m);
 }
 
 }  // namespace graben

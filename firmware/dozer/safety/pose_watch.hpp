@@ -32,6 +32,10 @@ struct PoseWatchState {
   double yawed_rad = 0.0;  ///< Heading against the yaw rate, less what the track turns.
   double uphill_m = 0.0;   ///< Climb against the slope that the pitch says.
   double slipped_m = 0.0;  ///< Velocity against the tracks, slip taken off.
+  double nods_rad = 0.0;   ///< As turned_rad, over a longer time: a slow drift.
+  double rocks_rad = 0.0;  ///< The same of roll.
+  double behind_m = 0.0;   ///< The body's way less than the tracks', beyond what these may slip;
+  double before_m = 0.0;   ///< and more.
 };
 
 /// Speed along the ground that speaks best for the measured velocity: of a track's sensor or of
@@ -40,6 +44,8 @@ struct GroundSpeeds {
   double left_mps = 0.0;
   double right_mps = 0.0;
   double transmission_mps = 0.0;
+  double way_mps = 0.0;  ///< Of the track whose sensor speaks best; it alone counts over a way.
+  double traction_share = 0.0;  ///< Of the tracks, of the weight; 0: not known.
 };
 
 /// True: they do not fit. `curvature_pm`: of the track where the body is, to the left positive.

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "firmware/dozer/safety/tuning.hpp"
+#include "firmware/dozer/travel/blade_load.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
@@ -108,13 +110,22 @@ TransmissionWatchResult watch_transmission(const DozerProfile& profile,
 }
 
 GroundSpeeds ground_speeds(const DozerProfile& profile, const DozerValid& valid) {
-  const std::array<double, kTrackCount>& tracks_mps = valid.track_speed_mps;
-  if (valid.faults.has(Fault::kEngineSpeedMissing)) {
-    return {tracks_mps[kLeft], tracks_mps[kRight], tracks_mps[kLeft]};
-  }
   const TrackSpeeds speeds = speeds_beside(profile, valid);
-  return {tracks_mps[kLeft], tracks_mps[kRight],
-          0.5 * (speeds.expected_mps[kLeft] + speeds.expected_mps[kRight])};
+  std::array<double, kTrackCount> way_mps = valid.track_speed_mps;
+  const bool known = !valid.faults.has(Fault::kEngineSpeedMissing);
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    if (known && valid.track_outvoted[i]) {
+      way_mps[i] = speeds.expected_mps[i];
+    }
+  }
+  const std::array<double, kTrackCount>& tracks_mps = valid.track_speed_mps;
+  const bool left =
+      std::abs(way_mps[kLeft] - speeds.body_mps) < std::abs(way_mps[kRight] - speeds.body_mps);
+  return {
+      tracks_mps[kLeft], tracks_mps[kRight],
+      known ? 0.5 * (speeds.expected_mps[kLeft] + speeds.expected_mps[kRight]) : tracks_mps[kLeft],
+      way_mps[left ? kLeft : kRight],
+      traction_n(profile, valid) / (profile.body.mass_kg * kStandardGravity_mps2)};
 }
 
 bool pumps_neutral(const DozerProfile& profile, const DozerValid& valid) {

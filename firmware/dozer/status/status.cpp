@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/dozer/estimation/situation.hpp"
 #include "firmware/dozer/tuning.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 
@@ -30,6 +31,28 @@ void watch_stall(const DozerModel& machine, const DozerValid& valid, PassPhase p
 }
 
 }  // namespace
+
+void check_mark(const DozerModel& machine, const DozerValid& valid, const DozerEstimates& estimates,
+                const Signal<std::uint8_t>& touch, TimeUs now_us, double elapsed_s,
+                MarkState& state, DozerStatus& status) {
+  const MarkProfile& mark = machine.profile.mark;
+  if (!mark.known()) {
+    return;
+  }
+  MarkSeen seen;
+  read_touch(touch, now_us, seen);
+  seen.by_hand = valid.by_hand();
+  seen.at_rest = spools_centred(machine.drives, valid.drive) && tracks_at_rest(valid);
+  seen.known = is_place_known(valid.faults);
+  const BladeSituation now =
+      situation_of(machine, valid, estimates, driving_of(machine, valid, estimates), 0.0,
+                   valid.blade().stroke_m);
+  // Of the edge's middle, and on a track that curves beside it.
+  seen.off_m = edge_in_world_m(machine.blade, now.body, now.angle_rad) - mark.place_m;
+  seen.off_m.y() = valid.course.offset_m - mark.place_m.y();
+  next_mark(mark, seen, elapsed_s, state);
+  status.mark = state.told;
+}
 
 void tell_motion(const DozerModel& machine, const PassState& pass, const BladeMotion& motion,
                  const Travel& travel, const FaultSet& degraded, DozerStatus& status) {

@@ -16,7 +16,7 @@ double low_passed(double last, double now, double period_s) {
 
 }  // namespace
 
-double push_n(const DozerProfile& profile, const DozerValid& valid) {
+double traction_n(const DozerProfile& profile, const DozerValid& valid) {
   const HstProfile& hst = profile.hst;
   double sum_n = 0.0;
   for (unsigned i = 0; i < kTrackCount; ++i) {
@@ -24,7 +24,12 @@ double push_n(const DozerProfile& profile, const DozerValid& valid) {
     sum_n += drop_pa * valid.motor_ratio[i] * hst.motor_m3prev / kTwoPi * hst.gear_ratio /
              hst.sprocket_radius_m;
   }
-  return sum_n - profile.body.mass_kg * kStandardGravity_mps2 * std::sin(valid.pitch_rad);
+  return sum_n;
+}
+
+double push_n(const DozerProfile& profile, const DozerValid& valid) {
+  return traction_n(profile, valid) -
+         profile.body.mass_kg * kStandardGravity_mps2 * std::sin(valid.pitch_rad);
 }
 
 double slip_of(const DozerValid& valid) {

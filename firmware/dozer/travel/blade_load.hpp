@@ -15,6 +15,10 @@ struct PushState {
   double rate_mps = 0.0;    ///< How that changes.
 };
 
+/// What both tracks give the ground, either way, by the pressures of their lines; 0 where nobody
+/// tells these.
+[[nodiscard]] double traction_n(const DozerProfile& profile, const DozerValid& valid);
+
 /// What both tracks drive the body with, N, by the pressures of their lines, less what the slope
 /// takes. Lines whose pressure nobody knows push with nothing.
 [[nodiscard]] double push_n(const DozerProfile& profile, const DozerValid& valid);

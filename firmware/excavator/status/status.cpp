@@ -2,6 +2,7 @@
 #include "firmware/excavator/status/status.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "firmware/excavator/status/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
@@ -12,6 +13,16 @@ namespace {
 /// It is laid around a path or a plan.
 bool has_tube(Task task) {
   return is_by_field(task) || task == Task::kProgram || task == Task::kCoordinated;
+}
+
+/// Shown teeth less mark, as the links look: outwards, to the left, up.
+Eigen::Vector3d off_mark_m(const ExcavatorModel& machine, const TipPose& tip, double swing_rad) {
+  const Eigen::Vector3d& mark_m = machine.profile.mark.place_m;
+  const Eigen::Vector2d& foot_m = machine.profile.geometry.boom_foot_m;
+  const double cosine = std::cos(swing_rad);
+  const double sine = std::sin(swing_rad);
+  return {foot_m.x() + tip.x_m - mark_m.x() * cosine - mark_m.y() * sine,
+          mark_m.x() * sine - mark_m.y() * cosine, foot_m.y() + tip.y_m - mark_m.z()};
 }
 
 }  // namespace
@@ -27,6 +38,25 @@ void tell_seen(const ExcavatorModel& machine, const InputState& inputs,
   }
   status.tip_load = estimates.load_observer.told;
   status.joints = inputs.joints;
+}
+
+void check_mark(const ExcavatorModel& machine, const ExcavatorValid& valid,
+                const KinematicState& pose, const Signal<std::uint8_t>& touch, TimeUs now_us,
+                double elapsed_s, MarkState& state, ExcavatorStatus& status) {
+  const ExcavatorProfile& profile = machine.profile;
+  if (!profile.mark.known()) {
+    return;
+  }
+  MarkSeen seen;
+  read_touch(touch, now_us, seen);
+  seen.by_hand = valid.by_hand();
+  seen.at_rest = spools_centred(machine.drives, valid.drive);
+  seen.known = is_place_known(valid.faults) && pose.status == ReachStatus::kOk;
+  const double swing_rad =
+      profile.has_swing() ? valid.drive[kSwing].stroke_m / profile.swing.lever_m : 0.0;
+  seen.off_m = off_mark_m(machine, pose.tip, swing_rad);
+  next_mark(profile.mark, seen, elapsed_s, state);
+  status.mark = state.told;
 }
 
 void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const Motion& motion,

@@ -10,6 +10,11 @@ namespace graben {
 void tell_seen(const ExcavatorModel& machine, const InputState& inputs,
                const EstimationState& estimates, ExcavatorStatus& status);
 
+/// The teeth at the profile's mark: looked at where the operator says so, and told.
+void check_mark(const ExcavatorModel& machine, const ExcavatorValid& valid,
+                const KinematicState& pose, const Signal<std::uint8_t>& touch, TimeUs now_us,
+                double elapsed_s, MarkState& state, ExcavatorStatus& status);
+
 /// What is told of a motion that is followed.
 void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const Motion& motion,
                  const Followed& followed, const FaultSet& degraded, ExcavatorStatus& status);

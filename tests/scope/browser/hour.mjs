@@ -19,8 +19,8 @@ const PICTURES = 30;
 const OTHERS = slow ? 1 : 10;
 const SLOWER = 200;
 const MESSAGES = 20;
-/// DM1, EcuHealth, EcuLearntValves, EcuTipLoad and SwingValveState of the 25 that an excavator with swing has.
-const LEFT_OUT = new Set(['18FECA82', '18FF3682', '18FF3982', '18FF3A82', '0CFF2B83']);
+/// DM1, EcuChecks, EcuHealth, EcuLearntValves, EcuTipLoad and SwingValveState of the 26 that an excavator with swing has.
+const LEFT_OUT = new Set(['18FECA82', '18FF4382', '18FF3682', '18FF3982', '18FF3A82', '0CFF2B83']);
 const CYCLES = Math.round(Number(minutes) * 6000);
 
 /// The last payload of each message, cycle by cycle, of a task that is played again and again; one that

@@ -60,9 +60,14 @@ constexpr Scale kScales[] = {
     {"PayloadMass", 0.25, -1000.0, -1000.0, 15000.0},
     {"TipForceDeviation", 250.0, 0.0, 0.0, 62.5e3},
     {"PayloadDeviation", 1.0, 0.0, 0.0, 250.0},
+    {"Age", 60.0, 0.0, 0.0, 3855300.0},
+    {"OffOutwards", 2e-3, -0.25, -0.25, 0.25},
+    {"OffAcross", 2e-3, -0.25, -0.25, 0.25},
+    {"OffUp", 2e-3, -0.25, -0.25, 0.25},
+    {"Tolerance", 2e-3, 0.0, 0.0, 0.5},
 };
 
-TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 102); }
+TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 112); }
 
 TEST(saturates_and_refuses) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

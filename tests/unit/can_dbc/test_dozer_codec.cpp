@@ -47,9 +47,14 @@ constexpr Scale kScales[] = {
     {"Offset", 1e-4, -3.2, -3.2, 3.2},
     {"Heading", 5e-5, -1.6, -1.6, 1.6},
     {"YawRate", 1e-4, -3.2, -3.2, 3.2},
+    {"Age", 60.0, 0.0, 0.0, 3855300.0},
+    {"OffOutwards", 2e-3, -0.25, -0.25, 0.25},
+    {"OffAcross", 2e-3, -0.25, -0.25, 0.25},
+    {"OffUp", 2e-3, -0.25, -0.25, 0.25},
+    {"Tolerance", 2e-3, 0.0, 0.0, 0.5},
 };
 
-TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 77); }
+TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 87); }
 
 TEST(saturates_and_refuses) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

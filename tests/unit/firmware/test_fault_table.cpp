@@ -72,6 +72,8 @@ const Promise kPromises[] = {
     // A joint's second sensor.
     {50, Fault::kWitnessMissing, 'D', 9, ArmBlock::kStroke},
     {51, Fault::kWitnessDisagrees, 'N', 2, ArmBlock::kStroke},
+    {52, Fault::kMarkMissed, 'N', 14, ArmBlock::kMark},
+    {53, Fault::kMarkDue, 'W', 31, ArmBlock::kMark},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},

@@ -18,7 +18,8 @@ struct Body {
   double curvature_pm = 0.0;
 
   explicit Body(double velocity_mps = 1.0) : Body(velocity_mps, velocity_mps) {}
-  Body(double velocity_mps, double tracks_mps) : speeds{tracks_mps, tracks_mps, tracks_mps} {
+  Body(double velocity_mps, double tracks_mps)
+      : speeds{tracks_mps, tracks_mps, tracks_mps, tracks_mps, 0.0} {
     valid.velocity_mps = velocity_mps;
   }
   /// All coordinates go on as their rates say; up a slope of `pitch_rad`.
@@ -256,7 +257,11 @@ TEST(the_most_itself_is_well) {
               {&PoseWatchState::aside_m, kMostAhead_m},
               {&PoseWatchState::yawed_rad, kMostYawed_rad},
               {&PoseWatchState::uphill_m, kMostUphill_m},
-              {&PoseWatchState::slipped_m, kMostSlipped_m}};
+              {&PoseWatchState::slipped_m, kMostSlipped_m},
+              {&PoseWatchState::nods_rad, kMostDrift_rad},
+              {&PoseWatchState::rocks_rad, kMostDrift_rad},
+              {&PoseWatchState::behind_m, kMostSlips_m},
+              {&PoseWatchState::before_m, kMostSlips_m}};
   for (const auto& row : rows) {
     for (const double sign : {1.0, -1.0}) {
       Body body;
@@ -295,4 +300,81 @@ TEST(a_long_cycle_forgets, Body body) {
   assert_near(body.state.ahead_m + body.state.climbed_m + body.state.turned_rad +
                   body.state.yawed_rad + body.state.uphill_m + body.state.slipped_m,
               0.0, 0.0);
+}
+
+/// A drift that is too slow for the short residual; a gyro that is off by less is well.
+TEST(a_slow_drift_is_seen) {
+  for (const double rate_radps : {0.008, -0.008, 0.0029, -0.0029}) {
+    const double each_rad = kPeriod_s * rate_radps;
+    const int due = cycles_to(std::abs(each_rad), kMostDrift_rad, kDriftForget_s);
+    Body nods;
+    // Not up any slope: it is the drift that tells.
+    const auto drift = [&](DozerValid& valid) {
+      valid.pitch_rad += each_rad;
+      valid.climb_mps = std::tan(valid.pitch_rad);
+    };
+    assert_int_equal(nods.begin_until_seen(drift), due);
+    Body rocks;
+    assert_int_equal(rocks.begin_until_seen([&](DozerValid& valid) { valid.roll_rad += each_rad; }),
+                     due);
+    assert_true(std::abs(rate_radps) < 0.003 ? due == 0 : due > 100 && due < 300);
+  }
+}
+
+/// Cycles until a body is seen whose tracks run `tracks_mps` while it goes 1 m/s, or 0; either way.
+int slip_seen(double velocity_mps, double tracks_mps, double traction_share) {
+  Body body(velocity_mps, tracks_mps);
+  body.speeds.traction_share = traction_share;
+  return body.begin_until_seen();
+}
+
+int way_to(double each_m) {
+  double sum_m = 0.0;
+  for (int n = 1; n <= 2000; ++n) {
+    sum_m += each_m;
+    if (sum_m > kMostSlips_m) {
+      return n;
+    }
+  }
+  return 0;
+}
+
+TEST(slip_without_a_load_is_seen) {
+  const double light = kSlipFromTraction;
+  for (const double way : {1.0, -1.0}) {
+    assert_int_equal(slip_seen(way * 0.8, way, light), way_to(0.01 * (0.2 - kUnloadedSlip)));
+    assert_int_equal(slip_seen(way * 1.2, way, light), way_to(0.01 * (0.2 - kUnloadedSlip)));
+    assert_int_equal(slip_seen(way * (1.001 - kUnloadedSlip), way, light), 0);
+    assert_int_equal(slip_seen(way * (0.999 + kUnloadedSlip), way, light), 0);
+  }
+}
+
+TEST(a_load_explains_slip) {
+  const double half = kSlipFromTraction + 0.5 * kSlipOverTraction;
+  const double between = 0.5 * (kUnloadedSlip + kPoseMostSlip);
+  assert_int_equal(slip_seen(0.999 - between - 0.02, 1.0, half), way_to(0.01 * 0.021));
+  assert_int_equal(slip_seen(1.001 - between, 1.0, half), 0);
+  assert_int_equal(slip_seen(1.001 - kPoseMostSlip, 1.0, 3.0), 0);
+  // Nobody tells the lines' pressures.
+  assert_int_equal(slip_seen(0.75, 1.0, 0.0), 0);
+}
+
+/// What crawls is at rest as far as its sensors tell; what has ended is forgotten by fitting.
+TEST(slip_is_summed_over_the_way) {
+  assert_int_equal(slip_seen(0.0, kTrackAtRest_mps, 0.1), 0);
+  assert_true(slip_seen(0.0, 1.001 * kTrackAtRest_mps, 0.1) > 0);
+  Body body(0.8, 1.0);
+  body.speeds.traction_share = 0.1;
+  body.step();
+  repeat(150, [&] {
+    body.go_on();
+    assert_false(body.step());
+  });
+  assert_true(body.state.behind_m > 0.1);
+  body.valid.velocity_mps = 1.0;
+  repeat(150, [&] {
+    body.go_on();
+    static_cast<void>(body.step());
+  });
+  assert_near(body.state.behind_m, 0.0, 0.0);
 }

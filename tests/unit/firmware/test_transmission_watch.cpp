@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
 
@@ -183,6 +184,28 @@ TEST(the_transmission_speaks_for_both_tracks, Machine machine) {
   speeds = ground_speeds(machine.profile, machine.valid);
   assert_near(speeds.right_mps, 0.75, 0.0);
   assert_near(speeds.transmission_mps, 1.5, 0.0);
+}
+
+/// The nearer to the body of two sound sensors, and of one that is outvoted its transmission.
+TEST(the_better_track_speaks_for_the_way, Machine machine) {
+  machine.valid.track_speed_mps = {1.25, 1.125};
+  assert_near(ground_speeds(machine.profile, machine.valid).way_mps, 1.125, 0.0);
+  machine.valid.track_speed_mps = {1.0625, 1.125};
+  assert_near(ground_speeds(machine.profile, machine.valid).way_mps, 1.0625, 0.0);
+  machine.valid.track_speed_mps = {3.0, 3.0};
+  machine.valid.track_outvoted = {true, true};
+  assert_near(ground_speeds(machine.profile, machine.valid).way_mps, 1.0, 1e-12);
+  machine.valid.faults.add(Fault::kEngineSpeedMissing);
+  assert_near(ground_speeds(machine.profile, machine.valid).way_mps, 3.0, 0.0);
+}
+
+TEST(traction_is_a_share_of_the_weight, Machine machine) {
+  machine.profile.body.mass_kg = 1000.0;
+  assert_near(ground_speeds(machine.profile, machine.valid).traction_share, 0.0, 0.0);
+  machine.valid.line_pressure_pa = {12.5e6, 12.5e6};
+  const double share = ground_speeds(machine.profile, machine.valid).traction_share;
+  assert_near(share, 2.0 * 10e6 * 1e-4 / kTwoPi * 10.0 / 0.5 / (1000.0 * kStandardGravity_mps2),
+              1e-9);
 }
 
 TEST(both_pumps_have_to_be_neutral) {

@@ -26,7 +26,7 @@ void see_all(Seen& seen, const Signal<std::array<double, count>>& signal) {
 
 inline void see_driver(Seen& seen, const OperatorInputs& driver) {
   see(seen, driver.enable, driver.mode, driver.task, driver.speed_override_ratio,
-      driver.task_number);
+      driver.task_number, driver.mark_touch);
 }
 
 inline Seen seen_in(const ExcavatorInputs& in) {

@@ -14,8 +14,8 @@ TEST(periods) {
     const auto tally =
         sent_in_10_s<DozerTransmitter, bus::SpoolCommand, bus::PumpDisplacementCommand,
                      bus::MotorDisplacementCommand, bus::EcuStatus, bus::EcuMotion, bus::EcuGrade,
-                     bus::EcuHealth, bus::EcuIdentity, bus::DM1>(jitter_us);
-    const std::array<int, 9> expected = {1000, 1000, 1000, 500, 500, 500, 100, 10, 10};
+                     bus::EcuHealth, bus::EcuIdentity, bus::EcuChecks, bus::DM1>(jitter_us);
+    const std::array<int, 10> expected = {1000, 1000, 1000, 500, 500, 500, 100, 10, 10, 10};
     assert_true(std::equal(expected.begin(), expected.end(), tally.begin()));
     assert_in_range(tally.back(), 5, 6);
   }

@@ -19,8 +19,8 @@ TEST(periods) {
     const auto tally =
         sent_in_10_s<ExcavatorTransmitter, bus::SpoolCommand, bus::PumpCommand, bus::EcuStatus,
                      bus::EcuMotion, bus::EcuHydraulics, bus::EcuHealth, bus::EcuLearntValves,
-                     bus::EcuTipLoad, bus::EcuIdentity, bus::DM1>(jitter_us);
-    const std::array<int, 10> expected = {1000, 500, 500, 500, 500, 100, 100, 100, 10, 10};
+                     bus::EcuTipLoad, bus::EcuIdentity, bus::EcuChecks, bus::DM1>(jitter_us);
+    const std::array<int, 11> expected = {1000, 500, 500, 500, 500, 100, 100, 100, 10, 10, 10};
     assert_true(std::equal(expected.begin(), expected.end(), tally.begin()));
     assert_in_range(tally.back(), 4, 5);
   }
@@ -245,4 +245,34 @@ TEST(motion_and_hydraulics, ExcavatorSender sender) {
   assert_near(hydraulics.pump1_expected_pressure_pa.value, 20e6, 1e-3);
   assert_near(hydraulics.pump2_expected_pressure_pa.value, 30e6, 1e-3);
   assert_near(hydraulics.path_error_m.value, 0.05, 1e-12);
+}
+
+TEST(the_last_check_at_the_mark_is_told) {
+  for (const auto checks : {std::uint8_t{0}, std::uint8_t{3}}) {
+    ExcavatorSender sender;
+    sender.outputs.status.mark = {checks > 0 ? MarkResult::kMissed : MarkResult::kNever,
+                                  MarkTouch::kMoving,
+                                  checks,
+                                  7240.0,
+                                  0.05,
+                                  {0.012, -0.5, 0.03}};
+    sender.cycles(9);
+    const auto told = sender.sent<bus::EcuChecks>();
+    assert_int_equal(told.result.value,
+                     checks > 0 ? bus::EcuChecks::Result::kMissed : bus::EcuChecks::Result::kNever);
+    assert_int_equal(told.touch.value, bus::EcuChecks::Touch::kMoving);
+    assert_int_equal(told.checks.value, checks);
+    assert_sent(told.tolerance_m, 0.05);
+    assert_sent(told.age_s, checks > 0 ? 7260.0 : kNan);  // In whole minutes.
+    assert_sent(told.off_outwards_m, checks > 0 ? 0.012 : kNan);
+    assert_sent(told.off_across_m, checks > 0 ? -0.25 : kNan);  // what the frame can say
+    assert_sent(told.off_up_m, checks > 0 ? 0.03 : kNan);
+  }
+}
+
+TEST(without_a_mark_nothing_is_told_of_it, ExcavatorSender sender) {
+  sender.cycles(9);
+  const auto told = sender.sent<bus::EcuChecks>();
+  assert_int_equal(told.result.value, bus::EcuChecks::Result::kNoMark);
+  assert_sent(told.tolerance_m, kNan);
 }

@@ -3,9 +3,11 @@
 
 #include "app/operate/command_frames.hpp"
 
+#include <vector>
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/link/e2e.hpp"
 #include "hal/link/message_rules.hpp"
+
 #include "tests/unit/cmocka_cpp.hpp"
 
 using dbc::RawState;
@@ -99,4 +101,34 @@ TEST(last_words_fit_and_change_nothing) {
   assert_memory_equal(last[1].data.data(), next[1].data.data(), 8);
   command.take(last[0], now);
   assert_int_equal(command.accepted, 4);
+}
+
+TEST(a_touch_is_said_every_100_ms_for_a_second) {
+  using Touched = dbc::excavator::TouchedPoint;
+  operate::TouchFrames frames;
+  std::vector<TimeUs> said_us;
+  std::vector<std::uint32_t> numbers;
+  const auto run = [&](TimeUs from_us, TimeUs to_us) {
+    for (TimeUs now = from_us; now < to_us; now += operate::CommandFrames::kPeriod_us) {
+      if (const auto frame = frames.next(now)) {
+        assert_int_equal(frame->id, Touched::kId);
+        const Touched message = Touched::decode(frame->data);
+        assert_int_equal(message.kind.value, Touched::Kind::kMark);
+        numbers.push_back(message.number.value);
+        said_us.push_back(now);
+      }
+    }
+  };
+  run(0, kSecondUs);
+  assert_true(said_us.empty());
+  frames.begin(kSecondUs);
+  run(kSecondUs, 3 * kSecondUs);
+  assert_int_equal(said_us.size(), 10);
+  assert_int_equal(said_us.front(), kSecondUs);
+  assert_int_equal(said_us.back(), 1900 * kMillisecondUs);
+  for (int i = 0; i < 251; ++i) {
+    frames.begin(4 * kSecondUs);
+    run(4 * kSecondUs, 4 * kSecondUs + 1);
+    assert_true(numbers.back() <= 250 && numbers.back() != numbers[numbers.size() - 2]);
+  }
 }

@@ -140,3 +140,36 @@ TEST(axes_have_the_tasks_names) {
   view.chosen_task = Task::kCoordinated;
   check_has(text_of(view), "up +50 %, forward -25 %, attitude +0 %, swing +100 %");
 }
+
+TEST(the_last_check_at_the_mark_is_shown) {
+  using Checks = Dbc::EcuChecks;
+  EcuListener ecu;
+  say_status(ecu, EcuMode::kReady);
+  Checks checks;
+  say(ecu, checks);
+  assert_true(text_of(view_of(ecu)).find("Mark ") == std::string::npos);
+  checks.result = {Checks::Result::kNever, RawState::kValid};
+  const struct {
+    Checks::Touch touch;
+    const char* words;
+  } refusals[] = {{Checks::Touch::kMoving, "the teeth were"},
+                  {Checks::Touch::kNotByHand, "choose Manual"},
+                  {Checks::Touch::kNotKnown, "where the teeth"}};
+  for (const auto& [touch, words] : refusals) {
+    checks.touch = {touch, RawState::kValid};
+    say(ecu, checks);
+    check_has(text_of(view_of(ecu)), "not checked since the start");
+    check_has(text_of(view_of(ecu)), words);
+  }
+  checks.result = {Checks::Result::kPassed, RawState::kValid};
+  checks.touch = {Checks::Touch::kTaken, RawState::kValid};
+  checks.age_s = {720.0, RawState::kValid};
+  checks.off_outwards_m = {0.004, RawState::kValid};
+  checks.off_across_m = {-0.002, RawState::kValid};
+  checks.off_up_m = {0.012, RawState::kValid};
+  say(ecu, checks);
+  check_has(text_of(view_of(ecu)), "checked 12 min ago: +4 mm outwards, -2 across, +12 up");
+  checks.result = {Checks::Result::kMissed, RawState::kValid};
+  say(ecu, checks);
+  check_has(text_of(view_of(ecu)), "MISSED 12 min ago");
+}

@@ -84,9 +84,12 @@ class Switches {
   Switches& operator=(const Switches&) = delete;
 
   [[nodiscard]] std::string bytes() const {
-    // But for the sets of frames, which point into themselves.
+    // The sets of frames point into themselves: which are silent is said in their place.
     const auto* const frames = reinterpret_cast<const char*>(&faults.frames);
     std::string bytes(bytes_.data(), frames);
+    for (const std::uint32_t id : faults.frames.silent) {
+      bytes.append(std::to_string(id));
+    }
     return bytes.append(frames + sizeof(plant::FrameFaults), bytes_.data() + sizeof(Faults));
   }
 

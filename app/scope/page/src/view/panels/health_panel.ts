@@ -25,6 +25,17 @@ const allocated = (reading: Reading) =>
 const some = (reading: Reading) => reading.state === 'valid' && reading.raw > 0;
 const never = () => false;
 
+/// EcuChecks.Result and .Touch.
+const RESULTS = ['no mark', 'not checked since the start', 'passed', 'missed: nothing arms'];
+const TOUCHES = ['none', 'taken', 'refused: the tool was not still', 'refused: not in Manual',
+  'refused: where the tool is was not known'];
+const MISSED = 3;
+const TAKEN = 1;
+const minutes = (reading: Reading) =>
+  (reading.state === 'valid' ? `${fixed(reading.value, 0)} min` : '–');
+const millimetres = (reading: Reading) =>
+  (reading.state === 'valid' ? `${fixed(reading.value, 0)} mm` : '–');
+
 type Row = readonly [string, string, Fact['words'], Fact['wrong']];
 
 const ROWS: readonly Row[] = [
@@ -40,6 +51,14 @@ const ROWS: readonly Row[] = [
   ['Last cycle', 'EcuStatus.CycleTime', (reading) =>
     (reading.value === 0 ? 'not measured: simulated time'
       : `${fixed(reading.value, 0)} µs`), never],
+  ['Tool at its mark', 'EcuChecks.Result',
+    (reading) => RESULTS[reading.raw] ?? '–', (reading) => reading.raw === MISSED],
+  ['Age of that check', 'EcuChecks.Age', minutes, never],
+  ['Shown off the mark, outwards', 'EcuChecks.OffOutwards', millimetres, never],
+  ['The same, to the left', 'EcuChecks.OffAcross', millimetres, never],
+  ['The same, upwards', 'EcuChecks.OffUp', millimetres, never],
+  ['Last touch of the mark', 'EcuChecks.Touch',
+    (reading) => TOUCHES[reading.raw] ?? '–', (reading) => reading.raw > TAKEN],
   ['Profile', 'EcuIdentity.ProfileHash', (reading, {machine}) => machine?.hash === reading.raw
     ? `${machine.name} (${hash_words(reading.raw)})` : hash_words(reading.raw), never],
   ['DBC version of the controller', 'EcuIdentity.DbcVersion',
