@@ -362,6 +362,10 @@ TEST(a_load_explains_slip) {
 /// What crawls is at rest as far as its sensors tell; what has ended is forgotten by fitting.
 TEST(slip_is_summed_over_the_way) {
   assert_int_equal(slip_seen(0.0, kTrackAtRest_mps, 0.1), 0);
+  Body creeps(0.0, 0.5 * kTrackAtRest_mps);
+  creeps.speeds.traction_share = 0.1;
+  repeat(50, [&] { assert_false(creeps.step()); });
+  assert_true(creeps.state.behind_m == 0.0);
   assert_true(slip_seen(0.0, 1.001 * kTrackAtRest_mps, 0.1) > 0);
   Body body(0.8, 1.0);
   body.speeds.traction_share = 0.1;
