@@ -79,7 +79,7 @@ SWING = ("SwingState", "SwingValveState", "SwingCommand")
 
 
 # Of an operator's station whose hands move the machine: no run of a task has them.
-HANDS = ("OperatorAxes", "CommissionDuty", "CommissionWindow")
+HANDS = ("TouchedPoint", "OperatorAxes", "CommissionDuty", "CommissionWindow")
 
 # Of second sensors, which a shipped machine has only where it is told so.
 SECOND = ("SecondStrokes", "SecondSwing")

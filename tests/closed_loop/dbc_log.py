@@ -39,13 +39,13 @@ def crc8(data):
 
 def decode(message, data):
     """Physical values; a 16-bit raw from 0xFB00, an 8-bit one from 0xFB and a 2-bit one from 2 are
-    none of J1939's. An 8-bit count whose range ends at 255 has no such ones."""
+    none of J1939's. An 8-bit count whose raw values end at 255 has no such ones."""
     value = int.from_bytes(data, "little")
     found = {}
     for name, start, length, factor, offset, least, most in message["signals"]:
         raw = value >> start & (1 << length) - 1
         physical = raw * factor + offset
-        special = ((length == 16 and raw > 0xFAFF) or (length == 8 and raw > 0xFA and most <= 250)
+        special = ((length == 16 and raw > 0xFAFF) or (length == 8 and raw > 0xFA and (most - offset) / factor <= 250)
                    or (length == 2 and raw > 1))
         assert special or least - 1e-9 <= physical <= most + 1e-9, \
             f"{message['name']}.{name} {physical} outside [{least}, {most}]"

@@ -11,8 +11,8 @@ namespace graben::reports {
 namespace {
 
 /// Slowest message of the machine that a sensor's timeout has to bridge, once lost; s. A window of
-/// commissioning is none: it holds for a second; nor are second sensors, which have times of their
-/// own.
+/// commissioning is none: it holds for a second; nor is a touch, nor second sensors with times of
+/// their own.
 template <class Messages>
 double slowest_period_s(const Messages& messages) {
   constexpr int kIdentity_ms = 1000;
@@ -20,6 +20,7 @@ double slowest_period_s(const Messages& messages) {
   for (const auto& message : messages) {
     if (std::string(message.sender) != "Graben" && message.cycle_time_ms < kIdentity_ms &&
         message.id != dbc::excavator::CommissionWindow::kId &&
+        message.id != dbc::excavator::TouchedPoint::kId &&
         std::string(message.sender) != "SecondSensors") {
       most_ms = std::max<int>(most_ms, message.cycle_time_ms);
     }
