@@ -217,10 +217,10 @@ void make_film(const FilmCommand& options) {
     throw std::runtime_error(
         fmt::format("{}: is there already; --force overwrites it", options.out));
   }
+  // Refuses what is no log, with its line, before a program is asked for or started.
+  static_cast<void>(runs::read_run_log(options.log));
   static_cast<void>(browser_program());
   assert_program("ffmpeg", "ffmpeg");
-  // Refuses what is no log, with its line, before a browser is started.
-  static_cast<void>(runs::read_run_log(options.log));
   assert_writable(options.out);
   if (const ErrorText error = catch_stop_signals(); !error.empty()) {
     throw std::runtime_error(error.c_str());
