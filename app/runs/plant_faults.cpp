@@ -121,6 +121,9 @@ PlantFaultTable<Excavator> make_excavator() {
     faults.set_silent(dbc::excavator::SecondStrokes::kId, true);
     faults.set_silent(dbc::excavator::SecondSwing::kId, true);
   };
+  table["valve-state:silent"] = [](Excavator& faults, double) {
+    faults.set_silent(dbc::excavator::ValveState::kId, true);
+  };
   add_spool(
       "swing", [](Excavator & faults) -> auto& { return faults.swing; }, table);
   for (unsigned j = 0; j < kPumpCount; ++j) {

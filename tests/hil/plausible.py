@@ -63,7 +63,7 @@ def main() -> int:
         told = folder / "cases"
         told.write_text("".join(case.line(lane_of[place], f"v{place}") for place, case in enumerate(cases)),
                         encoding="ascii")
-        return run_programs.main("plausible.sh", lambda out: check(cases, out), timeout_s=180.0 if every else 100.0,
+        return run_programs.main("plausible.sh", lambda out: check(cases, out), timeout_s=210.0 if every else 100.0,
                                  extra={"cases": told, **made_profiles(folder)})
 
 

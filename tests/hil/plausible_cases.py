@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The cases of plausible.py: rows 51 to 66, 78 and 79 of the fault table on a kernel's bus, once for each machine
+"""The cases of plausible.py: rows 51 to 66 and 78 to 84 of the fault table on a kernel's bus, once for each machine
 that can have them, and what else only a kernel can show. The bounds are those of tests/faults/rows_*.cpp; where a row
 gives a drive more time than a case lasts, the case's own end is the bound."""
 
@@ -12,6 +12,9 @@ DIG, GRADE = ("excavator_22t", "dig", "-"), ("dozer_9t", "grade", "-")
 PROGRAM = ("excavator_12t", "program", "flatten")
 # Machines of row 66: a rock that never comes loose, a transmission that gives less than what it takes to roll.
 ROCK, HEAVY = ("excavator_rock", "dig", "-"), ("dozer_heavy", "grade", "-")
+# Of rows 83 and 84: every joint of a cylinder has a second sensor.
+SECONDS = ("excavator_seconds", "dig", "-")
+SECOND_KEYS = "\n[second]\nboom = true\narm = true\nbucket = true\n"
 # Of rows 78 and 79: a blade that tilts, on a track that banks to both sides by turns. The track is straight: on one
 # that curves the simulated machine alone needs more than a processor's time here, so what tells of its course is
 # tried by fault_cases only.
@@ -36,6 +39,8 @@ def tilt_of(name: str) -> str:
 MADE = {"excavator_rock.toml": ("excavator_22t.toml", [STALL]),
         "excavator_rock.sim.toml": ("excavator_22t.sim.toml", [(r"share = 0.46", "share = 0.05"),
                                                                (r"hold = 3.0", "hold = 60.0")]),
+        "excavator_seconds.toml": ("excavator_22t.toml", [(r"\Z", SECOND_KEYS)]),
+        "excavator_seconds.sim.toml": ("excavator_22t.sim.toml", []),
         "dozer_heavy.toml": ("dozer_9t.toml", [STALL]),
         "dozer_banked.toml": ("dozer_9t.toml", [(r"(?m)^profile = .*$", f'design = "{TRACK_FILE}"'),
                                                  (r"\Z", tilt_of("dozer_9t_tilt.toml"))]),
@@ -61,7 +66,7 @@ class Case:
     names: tuple[str, ...]
     within_s: float
     at_s: float = AT_S
-    # By turns: stop, slow, refused, replay, second, gone, beside, harmless, chatter, change, stall, request, crash.
+    # By turns: stop, cut, slow, refused, replay, second, gone, beside, harmless, chatter, change, stall, request, crash.
     judged: str = "stop"
     command: str = "-"
     # ... or after the first of these commands that moves anything, or after the first of these angles that is
@@ -157,6 +162,14 @@ EVERY = [
     Case(78, BANKED, ("tilt-stroke:drift=0.05",), FROZEN, 1.0, at_s=BANKS_S),
     Case(78, BANKED, ("tilt-stroke:frozen",), FROZEN, 3.0, at_s=BANKS_S),
     Case(78, BANKED, ("tilt-spool:held=0.6",), ("SpoolStuck",), 0.2, at_s=BANKS_S),
+    # A spool that stays open after the stop, as its node falls silent: the pilot pressure has to be cut.
+    Case(80, DIG, ("boom-spool:held=0.35", "valve-state:silent"), ("SpoolMissing",), 0.1, judged="cut"),
+    Case(82, DIG, ("boom-stroke:noisy=0.0007",), FROZEN, 3.0),
+    Case(82, DIG, ("arm-stroke:noisy=0.0007",), FROZEN, 3.0),
+    Case(83, SECONDS, ("boom-stroke:frozen",), ("WitnessDisagrees",), 1.0),
+    Case(83, SECONDS, ("arm-stroke:gain=0.8",), ("WitnessDisagrees",), 2.0),
+    Case(83, SECONDS, ("boom-second:drift=0.03",), ("WitnessDisagrees",), 1.0),
+    Case(84, SECONDS, ("second-sensors:silent",), ("WitnessMissing",), 0.3, judged="slow"),
     Case(79, BANKED, ("roll:drift=0.1",), POSE, 0.4, at_s=BANKS_S),
     # A frozen angle or rate is wrong once the truth has gone on.
     Case(79, BANKED, ("roll:frozen",), POSE, 2.5, at_s=BANKS_S),

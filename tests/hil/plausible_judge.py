@@ -33,6 +33,8 @@ REST_S = 0.2
 GONE_S, MANY_FRAMES = 0.4, 500
 # From the mark until a shell has begun and has sent its signal.
 SIGNAL_S = 0.2
+# A step of a stroke, and the way of row 80 (rows_machine.cpp).
+STROKE_M, MOST_WAY_M = 0.05e-3, 0.12
 # Of the platform, as the row takes it for motion.
 TURNS_RAW = 2.0 / 0.1
 
@@ -102,6 +104,23 @@ def judge_stop(log: Log, since: float) -> Verdict:
     verdict.neutral = max(0.0, last + PERIOD_S - named.time) * 1e3
     if last + PERIOD_S - named.time > NEUTRAL_S:
         verdict.problems.append("not neutral within 20 ms")
+    return verdict
+
+
+def judge_cut(log: Log, since: float) -> Verdict:
+    """Its spool stays open: the cut is asked for, and from the first neutral command on the boom goes only so far."""
+    verdict = judge_stop(log, since)
+    stop = log.last_moving(since) + PERIOD_S
+    cut = next((frame.time for frame in log.commands
+                if frame.time > since and frame.name == SPOOL_COMMAND and frame.bits(14, 2) == 1), None)
+    way = [frame.bits(16, 16) * STROKE_M for frame in log.all if frame.name == bus_log.BOOM_STROKE
+           and frame.time > stop]
+    if cut is None:
+        verdict.problems.append("no cut of the pilot pressure was asked for")
+    else:
+        verdict.named += f", cut after {(cut - since) * 1e3:.0f} ms"
+    if not way or abs(way[-1] - way[0]) > MOST_WAY_M:
+        verdict.problems.append(f"the boom goes on by {abs(way[-1] - way[0]) * 1e3 if way else -1:.0f} mm")
     return verdict
 
 
@@ -273,7 +292,7 @@ def judge_end(log: Log, since: float, crash: bool) -> Verdict:
 
 OTHERS = {"slow": judge_slow, "refused": judge_refused, "replay": judge_replay, "second": judge_second,
           "gone": judge_gone, "beside": judge_beside, "harmless": judge_harmless, "chatter": judge_chatter,
-          "change": judge_change, "stall": judge_stall, "stop": judge_stop,
+          "change": judge_change, "stall": judge_stall, "stop": judge_stop, "cut": judge_cut,
           "request": lambda log, since: judge_end(log, since, False),
           "crash": lambda log, since: judge_end(log, since, True)}
 NEVER_MARKED = ("change", "stall", "refused")

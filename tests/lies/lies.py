@@ -2,8 +2,8 @@
 """The table of lies of living sensors (firmware/safety/README.md), tried anew.
 
 Each row of lies.toml is tried by lie_cases at three speeds of the operator, with `--seeds` draws of machine,
-sensors' errors and time for each of its faults. Prints the table; --write puts it into the README, with --only the rows that were tried in the
-place of those that are there.
+sensors' errors and time for each of its faults. Prints the table; --write puts it into the README, with --only
+the rows that were tried in the place of those that are there.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ import tomllib
 SPEEDS = (1.0, 0.3, 0.1)
 BEGIN = "<!-- lies.py: from here -->\n"
 END = "<!-- lies.py: to here -->\n"
+ROWS = "tests/lies/lies.toml"
 README = "firmware/safety/README.md"
 
 
@@ -72,6 +73,15 @@ def merged(before: str, found: str, names: list[str]) -> str:
     return "\n".join(found.splitlines()[:2] + [lines[name] for name in names if name in lines]) + "\n"
 
 
+def rows_of(file: pathlib.Path) -> list[dict]:
+    rows = tomllib.loads(file.read_text())["lie"]
+    names = [row["name"] for row in rows]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise SystemExit(f"{file}: two rows are named '{twice[0]}': one would stand in the other's place")
+    return rows
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path("."))
@@ -80,9 +90,11 @@ def main() -> int:
     parser.add_argument("--only", default="", help="rows whose name has this")
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args()
-    rows = tomllib.loads((options.root / "tests/lies/lies.toml").read_text())["lie"]
+    rows = rows_of(options.root / ROWS)
     names = [row["name"] for row in rows]
     rows = [row for row in rows if options.only in row["name"]]
+    if not rows:
+        parser.error(f"--only {options.only}: no row of lies.toml has this in its name")
     binary = options.build / "tests/lies/lie_cases"
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         found = {(number, speed): [pool.submit(tried, binary, row, fault, speed, options.seeds) for fault in row["any"]]
