@@ -17,8 +17,10 @@ struct ParkingState {
 
 /// A cycle on; true: the drive is to stand, its spool waits. That is where its correction alone
 /// would reverse it, for less than 40 mm/s at one reversal a second, in proportion, and never for
-/// more. Where the path itself wants the other side with at least 3 mm/s, it goes there at once.
-[[nodiscard]] bool park(double wanted_mps, double corrected_mps, double period_s,
+/// more. Where the path itself wants the other side with at least 3 mm/s, it goes there at once. A
+/// slow path turns as often and wants less: `pace`, 0 .. 1, is its share of one that is fast, by
+/// which those 3 mm/s are less, and by its root the others.
+[[nodiscard]] bool park(double wanted_mps, double corrected_mps, double pace, double period_s,
                         ParkingState& state);
 
 /// Signed duty, -1 .. 1, just within the dead band as it turned out to be.

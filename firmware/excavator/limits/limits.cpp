@@ -46,8 +46,10 @@ void park_spools(const ExcavatorModel& machine, const ExcavatorValid& valid,
     return;
   }
   const double lambda = std::max(last.flow.lambda, machine.profile.control.servo_least_lambda);
+  const double path_mps = valid.speed_override_ratio * machine.profile.dig_speed_mps;
+  const double pace = std::min(1.0, path_mps / kParkingPath_mps);
   for (int axis = 0; axis < 2; ++axis) {
-    if (park(motion.wanted_mps[axis], lambda * motion.corrected_mps[axis], period_s,
+    if (park(motion.wanted_mps[axis], lambda * motion.corrected_mps[axis], pace, period_s,
              state.parking[static_cast<unsigned>(axis)])) {
       motion.corrected_mps[axis] = 0.0;
     }

@@ -11,6 +11,10 @@ namespace graben {
 /// made, and no line is off in a move; not tried]
 inline constexpr double kMoveHeldUp = 0.3;
 
+/// Speed of a path from which on spools park as they do on a fast one. [m/s; chosen: what the
+/// parking was chosen at; not tried]
+inline constexpr double kParkingPath_mps = 0.5;
+
 // Fences (motion_cap.hpp)
 
 /// Way by which a fence stands behind what it guards. At the place itself the machine may still

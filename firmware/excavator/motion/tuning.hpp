@@ -17,6 +17,9 @@ inline constexpr double kWaryPace = 0.5;
 /// Distance off the path beyond which the oil's law gives way to the field, which leads back. [m;
 /// measured: `sweep.py`: soil's max_error_true_m 65.8; x0.7 69.5, x1.3 64.5]
 inline constexpr double kOilFarOff_m = 0.15;
+/// Most that is undone of a known error of the flow where the operator is slow, at full speed; less
+/// with his override. [m/s; chosen: it may be 80 mm/s, more than a slow path; not tried]
+inline constexpr double kOilKnownFlow_mps = 0.3;
 /// Way of the teeth over a stroke below which a direction is left alone: it damps the least squares
 /// where the teeth are in line with both pins. [-; measured: `sweep.py`: soil's max_error_true_m
 /// 65.8; x0.7 68.7, x1.3 64]

@@ -6,6 +6,7 @@
 #include "tests/unit/firmware/two_sides.hpp"
 
 constexpr double kPeriod_s = 0.01;
+constexpr double kFast = 1.0;
 
 DriveRow drive_row() {
   DriveRow row;
@@ -25,7 +26,8 @@ double reversals_ps(double correction_mps, double wanted_mps = 0.0) {
   int side = 0;
   for (int n = 0; n < 100 * kSeconds; ++n) {
     const double way = n / 10 % 2 == 0 ? 1.0 : -1.0;
-    if (!park(way * wanted_mps, way * correction_mps, kPeriod_s, state) && state.side != side) {
+    if (!park(way * wanted_mps, way * correction_mps, kFast, kPeriod_s, state) &&
+        state.side != side) {
       reversals += side != 0 ? 1 : 0;
       side = state.side;
     }
@@ -47,20 +49,37 @@ TEST(large_corrections_and_the_path_pass) {
 
 /// One reversal alone is not held up, and one that waits stands until its sign is back.
 TEST(only_the_second_one_waits, ParkingState state) {
-  assert_false(park(0.0, 0.01, kPeriod_s, state));
+  assert_false(park(0.0, 0.01, kFast, kPeriod_s, state));
   assert_int_equal(state.side, 1);
-  assert_true(park(0.0, -0.01, kPeriod_s, state));
+  assert_true(park(0.0, -0.01, kFast, kPeriod_s, state));
   assert_true(state.parked);
   assert_int_equal(state.side, 1);
-  assert_false(park(0.0, 0.002, kPeriod_s, state));
+  assert_false(park(0.0, 0.002, kFast, kPeriod_s, state));
   assert_false(state.parked);
 }
 
 /// What has not reversed for long does at once.
 TEST(calm_forgets, ParkingState state) {
-  repeat(2000, [&] { static_cast<void>(park(0.0, 0.01, kPeriod_s, state)); });
-  assert_false(park(0.0, -0.001, kPeriod_s, state));
+  repeat(2000, [&] { static_cast<void>(park(0.0, 0.01, kFast, kPeriod_s, state)); });
+  assert_false(park(0.0, -0.001, kFast, kPeriod_s, state));
   assert_int_equal(state.side, -1);
+}
+
+/// At a quarter of the pace a quarter of the path's speed turns a spool, and half of the
+/// correction.
+TEST(a_slow_path_turns_with_less) {
+  for (const double pace : {1.0, 0.25}) {
+    const double path_mps = 0.003 * pace;
+    ParkingState waits{1, 1.0, false};
+    assert_true(park(-0.99 * path_mps, -0.001, pace, kPeriod_s, waits));
+    ParkingState turns{1, 1.0, false};
+    assert_false(park(-1.01 * path_mps, -0.001, pace, kPeriod_s, turns));
+    const double most_mps = 0.04 * (3.0 / 3.01) * (pace < 1.0 ? 0.5 : 1.0);
+    ParkingState less{1, 1.0, false};
+    assert_true(park(0.0, -0.999 * most_mps, pace, kPeriod_s, less));
+    ParkingState more{1, 1.0, false};
+    assert_false(park(0.0, -1.001 * most_mps, pace, kPeriod_s, more));
+  }
 }
 
 TEST(it_waits_within_the_dead_band_that_was_learnt) {
