@@ -1,0 +1,568 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Instructions of Arm and Thumb-2: where they lead, and what they make of a state (values.py)."""
+
+import re
+
+from listing import Refusal
+
+BITS = 32
+MACHINE = 40
+STACK = "sp"
+CONDITIONS = {"eq": "ne", "cs": "cc", "mi": "pl", "vs": "vc", "hi": "ls", "ge": "lt", "gt": "le"}
+CONDITIONS |= {other: one for one, other in CONDITIONS.items()} | {"hs": "lo", "lo": "hs"}
+WITH_FLAGS = ("neg mov mvn add sub rsb and bic orr eor orn lsl lsr asr ror rrx mul mla adc sbc rsc").split()
+OTHERS = ("movw movt addw subw cmp cmn tst teq mls umull smull umlal smlal udiv sdiv uxtb uxth sxtb sxth "
+          "uxtab uxtah sxtab sxtah ubfx sbfx bfi bfc clz rbit rev rev16 revsh adr ldr ldrb ldrh ldrsb ldrsh "
+          "ldrd str strb strh strd ldm ldmia ldmdb ldmfd ldmib stm stmia stmdb stmib push pop b bl bx blx cbz "
+          "cbnz tbb tbh nop umaal umlal smulbb smlabb smmul uqadd8 usat ssat sel uadd8 dmb dsb isb bkpt svc "
+          "pld udf smlatb smulwb uxtb16 sxtb16 smuad qadd qsub smlalbb smultb smulbt smultt smlabt pkhbt pkhtb "
+          "cpsid cpsie mrs msr").split()
+WORDS = {}
+for _base in WITH_FLAGS + OTHERS:
+    for _s in ("", "s") if _base in WITH_FLAGS else ("",):
+        for _condition in ("", *CONDITIONS):
+            WORDS.setdefault(_base + _s + _condition, (_base, bool(_s), _condition or None))
+NAMES = {"ip": "r12", "fp": "r11", "sl": "r10", "sb": "r9", "r13": "sp", "r14": "lr", "r15": "pc"}
+SIZES = {"ldr": 4, "ldrb": 1, "ldrh": 2, "ldrsb": 1, "ldrsh": 2, "ldrd": 8,
+         "str": 4, "strb": 1, "strh": 2, "strd": 8}
+LOADED = {"ldrb": (0, 255), "ldrh": (0, 65535), "ldrsb": (-128, 127), "ldrsh": (-32768, 32767)}
+CORE = [f"r{n}" for n in range(13)] + ["sp", "lr"]
+CALLED = ["r0", "r1", "r2", "r3", "r12", "lr"] + [f"s{n}" for n in range(16)]
+REGISTERS = CORE + [f"s{n}" for n in range(32)]
+ARGUMENTS = ("r0", "r1", "r2", "r3")
+
+
+class Word:
+    """An instruction, taken apart."""
+
+    __slots__ = ("base", "flags", "condition", "args", "vector", "kind", "target", "suffix")
+
+    def __init__(self, instruction):
+        op = re.sub(r"\.[nw]$", "", instruction.op)
+        self.args = [NAMES.get(arg, arg) for arg in split(instruction.args)]
+        self.target = instruction.target
+        self.vector = op.startswith("v")
+        self.suffix = ""
+        if self.vector:
+            name, _, self.suffix = op.partition(".")
+            found = re.fullmatch(r"(v[a-z0-9]+?)(eq|ne|cs|hs|cc|lo|mi|pl|vs|vc|hi|ls|ge|lt|gt|le)?", name)
+            # vcls, vmls, vnmls end as a condition does.
+            whole = name in ("vmls", "vfms", "vnmls", "vfnms", "vcvt", "vabs", "vmrs", "vmsr") or not found[2]
+            self.base, self.condition = (name, None) if whole else (found[1], found[2])
+            self.flags = False
+        elif re.fullmatch(r"it[te]*", op):
+            self.base, self.flags, self.condition = "it", False, None
+        elif op in WORDS:
+            self.base, self.flags, self.condition = WORDS[op]
+            if self.base == "neg":
+                self.base, self.args = "rsb", [*self.args[:2], "#0"]
+        else:
+            raise Refusal(f"{instruction.address:#x}: nobody has said what {op} does")
+        self.kind = self.flow()
+
+    def flow(self):
+        """next, jump, call, call_pointer, return, table, jump_pointer"""
+        if self.base in ("b", "cbz", "cbnz"):
+            return "jump"
+        if self.base == "bl" or (self.base == "blx" and self.target is not None):
+            return "call"
+        if self.base == "blx":
+            return "call_pointer"
+        if self.base == "bx":
+            return "return" if self.args[0] == "lr" else "jump_pointer"
+        if self.base in ("tbb", "tbh"):
+            return "table"
+        if self.base in ("pop", "ldm", "ldmia", "ldmfd", "ldmdb") and re.search(r"\bpc\b", self.args[-1]):
+            return "return"
+        if self.args and self.args[0] == "pc" and not self.base.startswith(("str", "cmp", "pld")):
+            if self.base == "ldr":
+                return "return" if self.args[1].startswith("[sp") else "table"
+            if self.base == "mov" and self.args[1] == "lr":
+                return "return"
+            return "table" if self.base == "add" else "jump_pointer"
+        return "next"
+
+    @property
+    def implied(self):
+        """The condition of a jump and what it is of, where that is not the flags."""
+        if self.base in ("cbz", "cbnz"):
+            return ("eq" if self.base == "cbz" else "ne"), self.args[0]
+        return self.condition, None
+
+
+def split(text):
+    return [part.strip() for part in re.findall(r"(?:\[[^\]]*\]!?|\{[^}]*\}|[^,\[{])+", text)] if text else []
+
+
+def number(text):
+    return int(text[1:], 0) if re.fullmatch(r"#-?(0x[0-9a-f]+|\d+)", text) else None
+
+
+def listed(text):
+    found = []
+    for part in text.strip("{}^ ").split(","):
+        ends = [NAMES.get(end.strip(), end.strip()) for end in part.split("-")]
+        if len(ends) == 1:
+            found.append(ends[0])
+        else:
+            letter = ends[0][0]
+            found += [f"{letter}{n}" for n in range(int(ends[0][1:]), int(ends[1][1:]) + 1)]
+    return found
+
+
+def singles(register):
+    """The single ones that a register of the vector unit is."""
+    if re.fullmatch(r"d\d+", register):
+        n = int(register[1:])
+        return [f"s{2 * n}", f"s{2 * n + 1}"] if n < 16 else []
+    return [register] if re.fullmatch(r"s\d+", register) else []
+
+
+class Memory:
+    """[base, #offset]!, [base], #offset, [base, index, lsl #2]"""
+
+    def __init__(self, args):
+        inside = split(re.match(r"\[([^\]]*)\]", args[0])[1])
+        self.base = NAMES.get(inside[0], inside[0])
+        self.before = args[0].endswith("!")
+        self.offset, self.index, self.shift = 0, None, 0
+        self.after = None
+        if len(inside) > 1:
+            step = number(inside[1])
+            if step is not None:
+                self.offset = step
+            else:
+                self.index = NAMES.get(inside[1].lstrip("-"), inside[1])
+                self.shift = int(re.search(r"\d+", inside[2])[0]) if len(inside) > 2 else 0
+        if len(args) > 1:
+            self.after = number(args[1])
+
+
+class Arm:
+    BITS, STACK = BITS, STACK
+
+    def __init__(self, image):
+        self.image = image
+        self.words = {}
+
+    def word(self, instruction):
+        at = instruction.address
+        if at not in self.words:
+            self.words[at] = Word(instruction)
+        return self.words[at]
+
+    @staticmethod
+    def opposite(condition):
+        return CONDITIONS[condition]
+
+    def table(self, image, instruction):
+        """Where a jump by a table may go."""
+        word = self.word(instruction)
+        after = instruction.address + instruction.size
+        if word.base in ("tbb", "tbh"):
+            size = 1 if word.base == "tbb" else 2
+            end = image.data_after(after)
+            data = image.read(after, end - after)
+            entries = [int.from_bytes(data[n:n + size], "little") for n in range(0, end - after, size)]
+            if size == 1 and entries and entries[-1] == 0:
+                entries.pop()  # to an even address
+            found = {after + 2 * entry for entry in entries}
+        elif word.base == "ldr" and word.args[1].startswith("[pc"):
+            begin = (instruction.address + (8 if instruction.size == 4 and image.marked(instruction.address) == "a"
+                                            else 4)) & ~3
+            found = self.addresses(image, begin, image.data_after(begin))
+        else:
+            raise Refusal(f"{instruction.address:#x}: a table of jumps of which nobody has said where it is")
+        if not found or any(to not in image.instructions for to in found):
+            raise Refusal(f"{instruction.address:#x}: a table of jumps that cannot be read")
+        return sorted(found)
+
+    @staticmethod
+    def addresses(image, begin, end):
+        data = image.read(begin, end - begin) or b""
+        found = set()
+        for n in range(0, len(data) - 3, 4):
+            to = int.from_bytes(data[n:n + 4], "little") & ~1
+            if to not in image.instructions:
+                break
+            found.add(to)
+        return found
+
+    def enter(self, state):
+        for register in REGISTERS:
+            state.places[register] = (("e", register), 0)
+
+    def longest_way_back(self, graph):
+        """The most that an access goes below a pointer, which is not the stack's own."""
+        most = 0
+        for block in graph.blocks.values():
+            for instruction in block.instructions:
+                if found := re.search(r"\[(?!sp|pc|r13)\w+, #-(0x[0-9a-f]+|\d+)\]", instruction.args):
+                    most = min(most, -int(found[1], 0))
+        return most
+
+    def called(self, state, where):
+        for register in CALLED:
+            state.fresh(register, where)
+        state.flags = None
+        state.drop_slots(state.floor)
+
+    def execute(self, state, instruction):
+        word, where = self.word(instruction), instruction.address
+        if word.base in ("it", "nop", "b", "cbz", "cbnz", "pld", "dmb", "dsb", "isb", "bkpt", "svc", "udf",
+                         "cpsid", "cpsie", "msr"):
+            return
+        if word.kind in ("call", "call_pointer"):
+            self.called(state, where)
+        elif word.kind == "next" or word.base == "pop":
+            if word.vector:
+                self.vector(state, word, where)
+            elif word.base in SIZES:
+                self.memory(state, word, where, instruction)
+            elif word.base in ("push", "pop") or word.base[:3] in ("ldm", "stm"):
+                self.several(state, word, where)
+            else:
+                self.number(state, word, where, instruction)
+
+    # ---------------------------------------------------------------------------------------------
+
+    def operand(self, state, args):
+        """The last operand: a constant, a register, or one that is shifted (None: not known)."""
+        if (constant := number(args[0])) is not None:
+            return (None, state.signed(constant))
+        value = state.get(args[0])
+        if len(args) > 1:
+            found = re.fullmatch(r"(lsl|lsr|asr|ror) #(\d+)", args[1])
+            if found and value[0] is None:
+                return (None, state.signed(shifted(value[1], found[1], int(found[2]))))
+            return None
+        return value
+
+    def number(self, state, word, where, instruction):
+        base, args = word.base, word.args
+        if base in ("cmp", "cmn", "tst", "teq"):
+            a, b = state.get(args[0]), self.operand(state, args[1:])
+            if base == "cmp" and b is not None:
+                state.flags = (a, b)
+            elif base == "cmn" and b is not None and b[0] is None:
+                state.flags = (a, (None, -b[1]))
+            elif base == "tst" and b is not None and a == b:
+                state.flags = (a, None)
+            else:
+                state.flags = None
+            return
+        target = args[0]
+        flags = word.flags
+        made = None
+        if base in ("umull", "smull", "umlal", "smlal", "umaal", "smlalbb"):
+            state.fresh(args[0], where)
+            state.fresh(args[1], where)
+            state.flags = None if flags else state.flags
+            return
+        value, span = None, None
+        rest = args[1:]
+        if base in ("mov", "movw"):
+            value = self.operand(state, rest)
+            if value is None and len(rest) == 2:
+                kind, _, by = rest[1].partition(" ")
+                rest, base = [rest[0], by], kind
+        elif base == "mvn":
+            operand = self.operand(state, rest)
+            value = (None, ~operand[1]) if operand and operand[0] is None else None
+        elif base == "movt":
+            old = state.get(target)
+            value = (None, old[1] & 0xFFFF | number(rest[0]) << 16) if old[0] is None else None
+        elif base == "adr" or (base in ("add", "addw", "sub", "subw") and rest[0] == "pc"):
+            if instruction.target is not None:
+                value = (None, instruction.target)
+        if value is None and base in ("add", "addw", "sub", "subw", "rsb"):
+            value, span, made, minus = self.sum(state, base, target, rest)
+            if flags and minus is not None:
+                state.flags = minus
+                flags = None
+        elif value is None and base in ("and", "bic", "lsl", "lsr", "asr", "ubfx", "uxtb", "uxth", "sxtb", "sxth",
+                                        "udiv", "mul", "clz", "sbfx"):
+            value, span, made = self.bits(state, base, target, rest)
+        elif value is None and base in ("orr", "eor"):
+            a = state.get(rest[0]) if len(rest) > 1 else state.get(target)
+            b = self.operand(state, rest[1:] if len(rest) > 1 else rest)
+            span = self.both(state, a, b, base)
+        if value is not None:
+            state.put(target, value)
+        elif span is not None:
+            state.fresh(target, where, *span, made=made)
+        else:
+            state.fresh(target, where, made=made)
+        if flags:
+            state.flags = (state.get(target), None)
+        elif flags is None and state.flags and any(part and part[0] == ("d", where, target) for part in state.flags):
+            state.flags = None
+
+    def sum(self, state, base, target, rest):
+        """(value, range, how it was made, what the flags are of)"""
+        if len(rest) == 1 or (len(rest) == 2 and re.match(r"(lsl|lsr|asr|ror) ", rest[1])):
+            rest = [target, *rest]
+        a, b = state.get(rest[0]), self.operand(state, rest[1:])
+        if base == "rsb":
+            a, b = b, a
+        if a is None or b is None:
+            index = self.span(state, rest[1:]) if base in ("add", "addw") else None
+            made = ("plus", a, *index) if index and a else None
+            span = None
+            if index and a:
+                low, high = state.range_of(a)
+                span = low + index[0], high + index[1]
+            return None, self.fits(state, span), made, None
+        less = base not in ("add", "addw")
+        minus = (a, b) if less else (a, (None, -b[1])) if b[0] is None and b[1] != -(1 << 31) else None
+        if b[0] is None:
+            return (a[0], a[1] - b[1] if less else a[1] + b[1]), None, None, minus
+        if a[0] is None and not less:
+            return (b[0], a[1] + b[1]), None, None, None
+        if less and a[0] == b[0]:
+            return (None, a[1] - b[1]), None, None, minus
+        (a_low, a_high), (b_low, b_high) = state.range_of(a), state.range_of(b)
+        span = (a_low - b_high, a_high - b_low) if less else (a_low + b_low, a_high + b_high)
+        limits = state.limits()
+        made = None
+        if not less and (b_low, b_high) != limits:
+            made = ("plus", a, b_low, b_high, self.stride(state, b))
+        elif not less and (a_low, a_high) != limits:
+            made = ("plus", b, a_low, a_high, self.stride(state, a))
+        elif less and (b_low, b_high) != limits:
+            made = ("plus", a, -b_high, -b_low, self.stride(state, b))
+        return None, self.fits(state, span), made, minus
+
+    @staticmethod
+    def stride(state, value):
+        how = state.made.get(value[0])
+        return 1 << how[2] if how and how[0] == "lsl" and value[1] % (1 << how[2]) == 0 else 1
+
+    @staticmethod
+    def fits(state, span):
+        low, high = state.limits()
+        return span if span and low <= span[0] and span[1] <= high and span != (low, high) else None
+
+    def span(self, state, rest):
+        """The range of a shifted operand."""
+        if len(rest) == 2 and (found := re.fullmatch(r"lsl #(\d+)", rest[1])):
+            low, high = state.range_of(state.get(rest[0]))
+            by = int(found[1])
+            if (low, high) != state.limits() and abs(low) << by < 1 << 31 and abs(high) << by < 1 << 31:
+                return low << by, high << by, 1 << by
+        return None
+
+    def both(self, state, a, b, base):
+        if a is None or b is None:
+            return None
+        (a_low, a_high), (b_low, b_high) = state.range_of(a), state.range_of(b)
+        if a[0] is None and b[0] is None:
+            made = a[1] | b[1] if base == "orr" else a[1] ^ b[1]
+            return made, made
+        if a_low >= 0 and b_low >= 0:
+            top = max(a_high, b_high).bit_length()
+            return (max(a_low, b_low) if base == "orr" else 0), (1 << top) - 1
+        return None
+
+    def bits(self, state, base, target, rest):
+        if base in ("and", "bic", "lsl", "lsr", "asr", "mul") and \
+                (len(rest) == 1 or re.match(r"(lsl|lsr|asr|ror) ", rest[-1]) and len(rest) == 2):
+            rest = [target, *rest]
+        a = state.get(rest[0])
+        low, high = state.range_of(a)
+        b = self.operand(state, rest[1:]) if len(rest) > 1 and base not in ("ubfx", "sbfx") else None
+        n = b[1] if b and b[0] is None else None
+        if base == "clz":
+            return None, (0, 32), None
+        if base in ("uxtb", "uxth", "sxtb", "sxth") and len(rest) == 1:
+            top = 8 if base.endswith("b") else 16
+            span = (0, (1 << top) - 1) if base[0] == "u" else (-(1 << top - 1), (1 << top - 1) - 1)
+            return (a, None, None) if span[0] <= low and high <= span[1] else (None, span, None)
+        if base == "ubfx":
+            return None, (0, (1 << number(rest[2])) - 1), None
+        if base == "sbfx":
+            top = number(rest[2]) - 1
+            return None, (-(1 << top), (1 << top) - 1), None
+        if base == "and" and n is not None and n >= 0:
+            if 0 <= low and n + 1 & n == 0 and high <= n:
+                return a, None, None
+            return None, (0, min(n, high) if low >= 0 else n), ("and", a, b)
+        if base == "and" and b is not None:
+            other = state.range_of(b)
+            tops = [top for bottom, top in ((low, high), other) if bottom >= 0]
+            return None, (0, min(tops)) if tops else None, ("and", a, b)
+        if base == "bic" and low >= 0:
+            return None, (0, high), None
+        if n is not None and base in ("lsl", "lsr", "asr"):
+            n &= 255
+            if a[0] is None:
+                return (None, shifted(a[1], base, n)), None, None
+            if base == "lsl":
+                return None, self.fits(state, (low << n, high << n)) if n < 32 else None, ("lsl", a, n)
+            if base == "lsr" and low < 0:
+                return None, (0, (1 << 32 - n) - 1) if n else None, ("lsr", a, n)
+            return None, (low >> n, high >> n), (base, a, n)
+        if base == "udiv" and low >= 0:
+            return None, (0, high), None
+        if base == "mul" and b is not None:
+            other = state.range_of(b)
+            ends = [x * y for x in (low, high) for y in other]
+            if a[0] is None and b[0] is None:
+                return (None, a[1] * b[1]), None, None
+            return None, self.fits(state, (min(ends), max(ends))), None
+        return None, None, None
+
+    # ---------------------------------------------------------------------------------------------
+
+    def memory(self, state, word, where, instruction):
+        base = word.base
+        size = SIZES[base]
+        registers = word.args[:2] if base in ("ldrd", "strd") else word.args[:1]
+        rest = word.args[len(registers):]
+        loads = base.startswith("ldr")
+        if not rest[0].startswith("["):
+            raise Refusal(f"{where:#x}: a load that cannot be read")
+        place = Memory(rest)
+        if place.base == "pc":
+            data = self.image.read(instruction.target, size) if instruction.target is not None and loads else None
+            for n, register in enumerate(registers):
+                if data is not None and size >= 4:
+                    state.put(register, (None, int.from_bytes(data[4 * n:4 * n + 4], "little")))
+                else:
+                    state.fresh(register, where, *LOADED.get(base, (None, None)))
+            return
+        at = state.get(place.base)
+        offset = place.offset
+        known = place.index is None
+        if not loads:
+            if known:
+                for n, register in enumerate(registers):
+                    state.store(at, offset + 4 * n, min(size, 4), state.get(register) if size >= 4 else None)
+            else:
+                state.store((("x",), 0), 0, size, None)
+        self.back(state, place, at, where)
+        if loads:
+            for n, register in enumerate(registers):
+                self.loaded(state, register, at, offset + 4 * n, base, known, where)
+
+    def loaded(self, state, register, at, offset, base, known, where):
+        size = min(SIZES[base], 4)
+        slot = state.slot(at, offset, size) if known else None
+        span = LOADED.get(base, (None, None))
+        if slot is not None and slot in state.places:
+            state.put(register, state.places[slot])
+            return
+        if known and at[0] is None:
+            data = self.image.read(at[1] + offset, size)
+            if data is not None:
+                state.put(register, (None, int.from_bytes(data, "little", signed="s" in base[3:])))
+                return
+        state.fresh(register, where, *span)
+        if slot is not None and size == 4:
+            state.places[slot] = state.get(register)
+
+    def back(self, state, place, at, where):
+        step = place.offset if place.before else place.after
+        if place.before and place.index or place.after is None and not place.before:
+            if place.before:
+                state.fresh(place.base, where)
+            return
+        state.put(place.base, (at[0], at[1] + step))
+
+    def several(self, state, word, where):
+        base = word.base
+        if base in ("push", "pop"):
+            register, registers, back = "sp", listed(word.args[0]), True
+        else:
+            register = NAMES.get(word.args[0].rstrip("!"), word.args[0].rstrip("!"))
+            registers, back = listed(word.args[1]), word.args[0].endswith("!")
+        down = base in ("push", "stmdb", "ldmdb")
+        size = 4 * len(registers)
+        at = state.get(register)
+        first = -size if down else 4 if base in ("ldmib", "stmib") else 0
+        if base in ("push",) or base.startswith("stm"):
+            for n, name in enumerate(registers):
+                state.store(at, first + 4 * n, 4, state.get(name))
+        if back:
+            state.put(register, (at[0], at[1] + (-size if down else size)))
+        if base == "pop" or base.startswith("ldm"):
+            for n, name in enumerate(registers):
+                if name != "pc" and not (name == register and back):
+                    self.loaded(state, name, at, first + 4 * n, "ldr", True, where)
+
+    def vector(self, state, word, where):
+        base, args = word.base, word.args
+        if base in ("vpush", "vpop") or base[:4] in ("vldm", "vstm"):
+            own = base in ("vpush", "vpop")
+            register = "sp" if own else NAMES.get(args[0].rstrip("!"), args[0].rstrip("!"))
+            registers = listed(args[-1])
+            size = (8 if registers[0][0] == "d" else 4) * len(registers)
+            at = state.get(register)
+            down = base in ("vpush", "vstmdb", "vldmdb")
+            if base == "vpush" or base.startswith("vst"):
+                state.store(at, -size if down else 0, size, None)
+            else:
+                for name in registers:
+                    for single in singles(name):
+                        state.fresh(single, where)
+            if own or args[0].endswith("!"):
+                state.put(register, (at[0], at[1] + (-size if down else size)))
+        elif base == "vstr":
+            place = Memory(args[1:])
+            state.store(state.get(place.base), place.offset, 8 if args[0][0] == "d" else 4,
+                        state.get(args[0]) if args[0][0] == "s" else None)
+        elif base == "vmrs":
+            if args[0].lower() in ("apsr_nzcv", "pc"):
+                state.flags = None
+            else:
+                state.fresh(args[0], where)
+        elif base in ("vcmp", "vcmpe", "vmsr"):
+            pass
+        elif base == "vmov":
+            self.moved(state, args, where)
+        else:
+            self.written(state, args[:1], where)
+
+    def moved(self, state, args, where):
+        """Between the two kinds of registers a word may be kept."""
+        if len(args) == 2 and number(args[1]) is None:
+            from_one, to_one = args[1], args[0]
+            if singles(to_one) == [to_one] and (from_one in CORE or singles(from_one) == [from_one]) or \
+                    to_one in CORE and singles(from_one) == [from_one]:
+                state.put(to_one, state.get(from_one))
+                return
+            if len(singles(to_one)) == 2 and len(singles(from_one)) == 2:
+                for one, other in zip(singles(to_one), singles(from_one)):
+                    state.put(one, state.get(other))
+                return
+        if len(args) == 3 and args[0] in CORE and len(singles(args[2])) == 2:
+            for one, other in zip(args[:2], singles(args[2])):
+                state.put(one, state.get(other))
+            return
+        if len(args) == 3 and len(singles(args[0])) == 2:
+            for one, other in zip(singles(args[0]), args[1:]):
+                state.put(one, state.get(other))
+            return
+        if len(args) == 4 and args[0] in CORE:
+            self.written(state, args[:2], where)
+            return
+        self.written(state, args[: 1 if len(args) < 4 else 2], where)
+
+    def written(self, state, registers, where):
+        for register in registers:
+            register = re.sub(r"\[\d+\]$", "", register)
+            for name in singles(register) or ([register] if register in CORE else []):
+                state.fresh(name, where)
+
+
+def shifted(value, kind, by):
+    unsigned = value & 0xFFFFFFFF
+    by &= 255
+    if kind == "lsl":
+        return unsigned << by & 0xFFFFFFFF
+    if kind == "lsr":
+        return unsigned >> by
+    if kind == "asr":
+        return (unsigned - (1 << 32) if unsigned >> 31 else unsigned) >> by
+    by &= 31
+    return (unsigned >> by | unsigned << 32 - by) & 0xFFFFFFFF

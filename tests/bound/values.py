@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is known of the registers and the stack at one place of a function.
+
+A value is (symbol, offset): a constant where the symbol is None, else something that is not known, the same
+one wherever the symbol stands in a state. Of a symbol there may be a range, as a signed number, and how it
+came about. All sums are modulo the width of a register.
+"""
+
+
+class State:
+    """`places` has (symbol, offset) by place: a register's name, or ("s", bytes above the stack pointer at
+    the function's entry, size)."""
+
+    __slots__ = ("places", "ranges", "flags", "made", "bits", "floor")
+
+    def __init__(self, bits, floor):
+        self.places, self.ranges, self.made = {}, {}, {}
+        self.flags = None  # (a, b): of a - b; (a, None): of a alone
+        self.bits = bits
+        self.floor = floor  # what lies from here up in the stack may be written through pointers
+
+    def copy(self):
+        other = State(self.bits, self.floor)
+        other.places, other.ranges = dict(self.places), dict(self.ranges)
+        other.made, other.flags = dict(self.made), self.flags
+        return other
+
+    def limits(self):
+        return -(1 << (self.bits - 1)), (1 << (self.bits - 1)) - 1
+
+    def signed(self, number):
+        number &= (1 << self.bits) - 1
+        return number - (1 << self.bits) if number >> (self.bits - 1) else number
+
+    def get(self, place):
+        return self.places[place]
+
+    def put(self, place, value):
+        symbol, offset = value
+        self.places[place] = (symbol, self.signed(offset))
+
+    def fresh(self, place, where, low=None, high=None, made=None):
+        """Something new, which this instruction makes."""
+        symbol = ("d", where, place)
+        self.forget(symbol)
+        if low is not None:
+            if low == high:
+                self.places[place] = (None, self.signed(low))
+                return
+            self.ranges[symbol] = (low, high)
+        if made is not None and not any(isinstance(part, tuple) and part[0] == symbol for part in made):
+            self.made[symbol] = made
+        self.places[place] = (symbol, 0)
+
+    def forget(self, symbol):
+        """Of an older round of a loop: what had this symbol is something else."""
+        for place in [place for place, value in self.places.items() if value[0] == symbol]:
+            if isinstance(place, tuple):
+                del self.places[place]
+            else:
+                self.places[place] = (("x", symbol, place), 0)
+        self.ranges.pop(symbol, None)
+        self.made.pop(symbol, None)
+        for other in [key for key, how in self.made.items() if any(
+                isinstance(part, tuple) and part[0] == symbol for part in how)]:
+            del self.made[other]
+        if self.flags and any(part and part[0] == symbol for part in self.flags):
+            self.flags = None
+
+    def range_of(self, value):
+        symbol, offset = value
+        if symbol is None:
+            return offset, offset
+        low, high = self.limits()
+        if symbol not in self.ranges:
+            return low, high
+        first, last = self.ranges[symbol]
+        first, last = first + offset, last + offset
+        return (first, last) if low <= first and last <= high else (low, high)
+
+    def narrow(self, value, first, last):
+        """False where nothing is left."""
+        now = self.range_of(value)
+        first, last = max(first, now[0]), min(last, now[1])
+        if first > last:
+            return False
+        symbol, offset = value
+        if symbol is not None:
+            low, high = self.limits()
+            if low <= first - offset and last - offset <= high and (first, last) != (low, high):
+                old = self.ranges.get(symbol, (low, high))
+                new = max(old[0], first - offset), min(old[1], last - offset)
+                if new[0] <= new[1]:
+                    self.ranges[symbol] = new
+        return True
+
+    # Memory of the stack. ------------------------------------------------------------------------
+
+    def slot(self, base, offset, size):
+        """The place in the stack that an address is, or None."""
+        symbol, at = base
+        return ("s", at + offset, size) if symbol == ("e", "sp") else None
+
+    def store(self, base, offset, size, value):
+        place = self.slot(base, offset, size)
+        if place is None:
+            # By a pointer that is not the stack's: whatever a pointer may have been taken of. What came from
+            # the caller or is constant leads to nothing of this function's own.
+            given = base[0] is None or base[0][0] == "e"
+            self.drop_slots(0 if given and self.floor is not None else self.floor)
+            return
+        first = place[1]
+        for other in [key for key in self.places if isinstance(key, tuple)
+                      and key[1] < first + size and first < key[1] + key[2]]:
+            del self.places[other]
+        if value is not None:
+            self.places[place] = value
+
+    def drop_slots(self, floor):
+        if floor is not None:
+            for other in [key for key in self.places if isinstance(key, tuple) and key[1] >= floor]:
+                del self.places[other]
+
+    # Conditions. ---------------------------------------------------------------------------------
+
+    def given(self, condition, rank):
+        """This state where `condition` of the flags is true; None where it can't be."""
+        if self.flags is None:
+            return self.copy()
+        a, b = self.flags
+        if b is None:
+            if condition not in ("eq", "ne", "mi", "pl"):
+                return self.copy()
+            b = (None, 0)
+        state = self.copy()
+        return state if state.assume(a, b, condition, rank) else None
+
+    def assume(self, a, b, condition, rank):
+        if a[0] == b[0]:
+            return self.exact(a[1], b[1], condition) if a[0] is None else \
+                not (condition == "ne" and a[1] == b[1]) and not (condition == "eq" and a[1] != b[1])
+        (a_low, a_high), (b_low, b_high) = self.range_of(a), self.range_of(b)
+        low, high = self.limits()
+        if condition == "eq":
+            if not (self.narrow(a, b_low, b_high) and self.narrow(b, a_low, a_high)):
+                return False
+            self.equate(a, b, rank)
+            return True
+        if condition == "ne":
+            return self.differ(a, b) and self.differ(b, a)
+        if condition in ("lt", "mi"):
+            return self.narrow(a, low, b_high - 1) and self.narrow(b, a_low + 1, high)
+        if condition == "le":
+            return self.narrow(a, low, b_high) and self.narrow(b, a_low, high)
+        if condition == "gt":
+            return self.narrow(a, b_low + 1, high) and self.narrow(b, low, a_high - 1)
+        if condition in ("ge", "pl"):
+            return self.narrow(a, b_low, high) and self.narrow(b, low, a_high)
+        # Without a sign: where the greater one is not negative, none is.
+        if condition in ("cc", "lo") and b_low >= 0:
+            return self.narrow(a, 0, b_high - 1) and (a_low < 0 or self.narrow(b, a_low + 1, high))
+        if condition == "ls" and b_low >= 0:
+            return self.narrow(a, 0, b_high) and (a_low < 0 or self.narrow(b, a_low, high))
+        if condition == "hi" and a_low >= 0:
+            return self.narrow(b, 0, a_high - 1) and (b_low < 0 or self.narrow(a, b_low + 1, high))
+        if condition in ("cs", "hs") and a_low >= 0:
+            return self.narrow(b, 0, a_high) and (b_low < 0 or self.narrow(a, b_low, high))
+        return True
+
+    def exact(self, a, b, condition):
+        mask = (1 << self.bits) - 1
+        return {"eq": a == b, "ne": a != b, "lt": a < b, "le": a <= b, "gt": a > b, "ge": a >= b,
+                "mi": self.signed(a - b) < 0, "pl": self.signed(a - b) >= 0,
+                "cc": a & mask < b & mask, "lo": a & mask < b & mask, "ls": a & mask <= b & mask,
+                "hi": a & mask > b & mask, "cs": a & mask >= b & mask, "hs": a & mask >= b & mask,
+                }.get(condition, True)
+
+    def differ(self, a, b):
+        first, last = self.range_of(b)
+        low, high = self.range_of(a)
+        if first == last:
+            if low == first:
+                return self.narrow(a, low + 1, high)
+            if high == first:
+                return self.narrow(a, low, high - 1)
+        return True
+
+    def equate(self, a, b, rank):
+        """From here on the younger one is written as the elder."""
+        if b[0] is not None and (a[0] is None or rank(a[0]) <= rank(b[0])):
+            a, b = b, a
+        if a[0] is None:
+            return
+        for place, (symbol, offset) in list(self.places.items()):
+            if symbol == a[0]:
+                self.put(place, (b[0], b[1] + offset - a[1]))
