@@ -4,12 +4,11 @@
 import re
 
 from listing import Refusal
+from values import OPPOSITE
 
 BITS = 32
 MACHINE = 40
 STACK = "sp"
-CONDITIONS = {"eq": "ne", "cs": "cc", "mi": "pl", "vs": "vc", "hi": "ls", "ge": "lt", "gt": "le"}
-CONDITIONS |= {other: one for one, other in CONDITIONS.items()} | {"hs": "lo", "lo": "hs"}
 WITH_FLAGS = ("neg mov mvn add sub rsb and bic orr eor orn lsl lsr asr ror rrx mul mla adc sbc rsc").split()
 OTHERS = ("movw movt addw subw cmp cmn tst teq mls umull smull umlal smlal udiv sdiv uxtb uxth sxtb sxth "
           "uxtab uxtah sxtab sxtah ubfx sbfx bfi bfc clz rbit rev rev16 revsh adr ldr ldrb ldrh ldrsb ldrsh "
@@ -20,7 +19,7 @@ OTHERS = ("movw movt addw subw cmp cmn tst teq mls umull smull umlal smlal udiv 
 WORDS = {}
 for _base in WITH_FLAGS + OTHERS:
     for _s in ("", "s") if _base in WITH_FLAGS else ("",):
-        for _condition in ("", *CONDITIONS):
+        for _condition in ("", *OPPOSITE):
             WORDS.setdefault(_base + _s + _condition, (_base, bool(_s), _condition or None))
 NAMES = {"ip": "r12", "fp": "r11", "sl": "r10", "sb": "r9", "r13": "sp", "r14": "lr", "r15": "pc"}
 SIZES = {"ldr": 4, "ldrb": 1, "ldrh": 2, "ldrsb": 1, "ldrsh": 2, "ldrd": 8,
@@ -139,21 +138,26 @@ class Memory:
 
 
 class Arm:
-    BITS, STACK = BITS, STACK
+    BITS, STACK, ARGUMENTS, CALLED = BITS, STACK, ARGUMENTS, CALLED
 
     def __init__(self, image):
         self.image = image
         self.words = {}
+        self.kept = {}  # registers that a function leaves as they were, by entry
 
     def word(self, instruction):
         at = instruction.address
         if at not in self.words:
-            self.words[at] = Word(instruction)
+            word = self.words[at] = Word(instruction)
+            if word.base == "ldr" and word.kind == "table" and re.match(r"\[pc, #", word.args[1]):
+                # A far jump to one place.
+                data = self.image.read(instruction.target, 4)
+                word.kind, word.target = "jump", int.from_bytes(data, "little") & ~1
         return self.words[at]
 
     @staticmethod
     def opposite(condition):
-        return CONDITIONS[condition]
+        return OPPOSITE[condition]
 
     def table(self, image, instruction):
         """Where a jump by a table may go."""
@@ -201,9 +205,11 @@ class Arm:
                     most = min(most, -int(found[1], 0))
         return most
 
-    def called(self, state, where):
+    def called(self, state, where, target):
+        kept = self.kept.get(target, ())
         for register in CALLED:
-            state.fresh(register, where)
+            if register not in kept:
+                state.fresh(register, where)
         state.flags = None
         state.drop_slots(state.floor)
 
@@ -213,7 +219,7 @@ class Arm:
                          "cpsid", "cpsie", "msr"):
             return
         if word.kind in ("call", "call_pointer"):
-            self.called(state, where)
+            self.called(state, where, word.target)
         elif word.kind == "next" or word.base == "pop":
             if word.vector:
                 self.vector(state, word, where)
@@ -391,6 +397,9 @@ class Arm:
             other = state.range_of(b)
             tops = [top for bottom, top in ((low, high), other) if bottom >= 0]
             return None, (0, min(tops)) if tops else None, ("and", a, b)
+        if base == "bic" and n is not None and n >= 0 and n & (n + 1) == 0:
+            # Down to a multiple.
+            return None, self.fits(state, (low & ~n, high & ~n)), ("lsl", None, n.bit_length())
         if base == "bic" and low >= 0:
             return None, (0, high), None
         if n is not None and base in ("lsl", "lsr", "asr"):
@@ -417,10 +426,13 @@ class Arm:
     def memory(self, state, word, where, instruction):
         base = word.base
         size = SIZES[base]
-        registers = word.args[:2] if base in ("ldrd", "strd") else word.args[:1]
-        rest = word.args[len(registers):]
+        first = next((n for n, arg in enumerate(word.args) if arg.startswith("[")), 0)
+        registers, rest = word.args[:first], word.args[first:]
+        if size == 8 and first == 1:
+            # Of Arm's own words the second one is implied.
+            registers = [registers[0], CORE[CORE.index(registers[0]) + 1]]
         loads = base.startswith("ldr")
-        if not rest[0].startswith("["):
+        if not registers:
             raise Refusal(f"{where:#x}: a load that cannot be read")
         place = Memory(rest)
         if place.base == "pc":

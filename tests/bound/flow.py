@@ -269,15 +269,18 @@ class Flow:
                    state.given(self.machine.opposite(word.condition), self.symbol_rank))
         if yes is not None:
             self.machine.execute(yes, instruction)
-        self.either(state, yes, no, instruction.address)
+        self.either(state, yes, no, instruction.address, word.condition)
 
-    def either(self, state, yes, no, where):
+    def either(self, state, yes, no, where, condition):
         if yes is None or no is None:
             one = yes or no
             if one is not None:
                 state.places, state.ranges, state.made, state.flags = one.places, one.ranges, one.made, one.flags
             return
         flags = yes.flags if yes.flags == no.flags else None
+        tested = state.flags and (state.flags[0], state.flags[1] or (None, 0))
+        if tested and state.flags[1] is None and condition not in ("eq", "ne", "mi", "pl"):
+            tested = None
         news = []
         places = {}
         for place, value in yes.places.items():
@@ -286,7 +289,8 @@ class Flow:
                 places[place] = value
             elif other is not None:
                 spans = yes.range_of(value), no.range_of(other)
-                news.append((place, min(s[0] for s in spans), max(s[1] for s in spans)))
+                made = ("either", *tested, condition, value, other) if tested else None
+                news.append((place, min(s[0] for s in spans), max(s[1] for s in spans), made))
         ranges = {}
         for symbol, span in yes.ranges.items():
             if symbol in no.ranges:
@@ -295,11 +299,11 @@ class Flow:
         state.made = {key: how for key, how in yes.made.items() if no.made.get(key) == how}
         state.flags = flags
         limits = state.limits()
-        for place, low, high in news:
+        for place, *_ in news:
             # A constant that both ways have is one; the condition may have changed what is written.
             state.places[place] = (None, 0)
-        for place, low, high in news:
+        for place, low, high, made in news:
             if (low, high) == limits:
-                state.fresh(place, where)
+                state.fresh(place, where, made=made)
             else:
-                state.fresh(place, where, low, high)
+                state.fresh(place, where, low, high, made=made)

@@ -114,10 +114,10 @@ class Graph:
         condition, register = word.implied
         ways = []
         if word.kind == "jump":
-            if self.is_other(instruction.target):
-                self.tails[instruction.address] = instruction.target
+            if self.is_other(word.target):
+                self.tails[instruction.address] = word.target
             else:
-                ways.append((instruction.target, condition, register))
+                ways.append((word.target, condition, register))
         elif word.kind == "table":
             ways += [(to, condition, None) for to in self.machine.table(self.image, instruction)]
         if condition is not None:

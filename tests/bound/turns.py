@@ -42,7 +42,7 @@ class Turns:
         # Ways within the loop that cannot be taken any more from some round on.
         ends = {}
         for at in loop.blocks:
-            if at in self.flow.entering and len(self.graph.blocks[at].successors) > 1:
+            if at in self.flow.entering and any(way[1] for way in self.graph.blocks[at].successors):
                 self.test(loop, at, ends)
         for count, how in sorted(set(ends.values())):
             if not self.goes_round(loop, {way for way, (most, _) in ends.items() if most <= count}):
@@ -89,11 +89,12 @@ class Turns:
                 if condition not in ("eq", "ne", "mi", "pl"):
                     continue
                 b = (None, 0)
-            found = [(count, how) for count, how in (
-                (self.shrinking(loop, state, a, b, condition), "a word that loses bits in each round"),
-                (self.counting(loop, state, a, b, condition), "a counter")) if count is not None and count >= 0]
-            if found:
-                ends[at, n] = min(found)
+            for one, other, what in state.implied(a, b, condition):
+                for count, how in (
+                        (self.shrinking(loop, state, one, other, what), "a word that loses bits in each round"),
+                        (self.counting(loop, state, one, other, what), "a counter")):
+                    if count is not None and count >= 0:
+                        ends[at, n] = min(ends.get((at, n), (count, how)), (count, how))
 
     # What changes. -------------------------------------------------------------------------------
 

@@ -6,6 +6,9 @@ one wherever the symbol stands in a state. Of a symbol there may be a range, as 
 came about. All sums are modulo the width of a register.
 """
 
+OPPOSITE = {"eq": "ne", "cs": "cc", "mi": "pl", "vs": "vc", "hi": "ls", "ge": "lt", "gt": "le", "hs": "lo"}
+OPPOSITE |= {other: one for one, other in OPPOSITE.items()}
+
 
 class State:
     """`places` has (symbol, offset) by place: a register's name, or ("s", bytes above the stack pointer at
@@ -133,7 +136,37 @@ class State:
                 return self.copy()
             b = (None, 0)
         state = self.copy()
-        return state if state.assume(a, b, condition, rank) else None
+        for one, other, what in self.implied(a, b, condition):
+            if not state.assume(one, other, what, rank):
+                return None
+        state.decide(a, b, condition)
+        return state
+
+    def decide(self, a, b, condition):
+        """What is one of two by this very condition is one of them now."""
+        for symbol, how in self.made.items():
+            if how[0] != "either" or how[1:3] != (a, b) or condition not in (how[3], OPPOSITE[how[3]]):
+                continue
+            base, offset = how[4] if condition == how[3] else how[5]
+            for place, value in list(self.places.items()):
+                if value[0] == symbol:
+                    self.put(place, (base, offset + value[1]))
+
+    def implied(self, a, b, condition):
+        """What else is true where `condition` is: of a value that is one of two, it may say which."""
+        found, todo = [], [(a, b, condition)]
+        while todo and len(found) < 8:
+            a, b, condition = todo.pop()
+            found.append((a, b, condition))
+            how = self.made.get(a[0])
+            if how is None or how[0] != "either" or b[0] is not None:
+                continue
+            _, one, other, tested, yes, no = how
+            for value, otherwise, what in ((yes, no, OPPOSITE[tested]), (no, yes, tested)):
+                if value[0] is None and not self.exact(self.signed(value[1] + a[1]), b[1], condition):
+                    todo.append((one, other, what))
+                    todo.append(((otherwise[0], otherwise[1] + a[1]), b, condition))
+        return found
 
     def assume(self, a, b, condition, rank):
         if a[0] == b[0]:

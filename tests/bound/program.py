@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A function's bound of those that it calls: loops, the longest path, the stack."""
+
+import dataclasses
+import re
+import tomllib
+
+from graph import Graph
+from listing import Refusal
+from paths import dearest
+from turns import Turns
+
+
+@dataclasses.dataclass
+class LoopFound:
+    entry: int
+    header: int
+    latch: int
+    count: int | None
+    how: str
+
+
+@dataclasses.dataclass
+class Summary:
+    entry: int
+    bound: int = 0
+    stack: int = 0
+    own: int = 0  # instructions of the longest path that are the function's own
+    calls: list = dataclasses.field(default_factory=list)  # (times, Summary) of the longest path
+    below: list = dataclasses.field(default_factory=list)  # every Summary that it may call
+    loops: list = dataclasses.field(default_factory=list)
+    open: set = dataclasses.field(default_factory=set)  # (entry, header) without a count, of those below too
+
+
+class Program:
+    def __init__(self, image, machine, calls_file, table, facts=None):
+        self.image, self.machine = image, machine
+        self.graphs, self.summaries, self.turns = {}, {}, {}
+        with open(calls_file, "rb") as stream:
+            self.listed = tomllib.load(stream)["call"]
+        self.table = table
+        self.facts = facts
+        self.way = []
+        self.problems = []
+
+    def graph(self, entry):
+        if entry not in self.graphs:
+            self.graphs[entry] = Graph(self.image, self.machine, entry)
+        return self.graphs[entry]
+
+    def entry_of(self, pattern):
+        found = [at for at in self.image.entries if re.search(pattern, self.image.word(at))]
+        if len(found) != 1:
+            raise Refusal(f"{len(found)} functions are called {pattern}")
+        return found[0]
+
+    def targets(self, entry, target, where):
+        if target is not None:
+            return [target]
+        word = self.image.word(entry)
+        rows = [row for row in self.listed if re.search(row["from"], word)]
+        if not rows:
+            raise Refusal(f"{word}: a call through a pointer at {where:#x} that calls.toml does not list")
+        found = {at for row in rows for at in self.image.entries if re.search(row["to"], self.image.word(at))}
+        if not found:
+            raise Refusal(f"{word}: no function is what calls.toml lists")
+        return sorted(found)
+
+    def kept(self, graph, turns):
+        kept = set(self.machine.CALLED)
+        for at, state in turns.flow.entering.items():
+            block = graph.blocks[at]
+            if not block.leaves:
+                continue
+            state = state.copy()
+            for instruction in block.instructions:
+                turns.flow.step(state, instruction)
+            kept = {register for register in kept if state.places[register] == (("e", register), 0)}
+            for _, target in block.calls:
+                # Last of all it may go on in another.
+                if block.last.address in graph.tails or target is None:
+                    kept &= self.machine.kept.get(target, set())
+        return kept
+
+    # A function, in what is known of its arguments. ------------------------------------------------
+
+    def of(self, entry, known=()):
+        if (entry, ()) not in self.summaries:
+            self.summaries[entry, ()] = self.summary(entry, ())
+        plain = self.summaries[entry, ()]
+        if not plain.open or not known:
+            return plain
+        if (entry, known) not in self.summaries:
+            self.summaries[entry, known] = self.summary(entry, known)
+        return self.summaries[entry, known]
+
+    def summary(self, entry, known):
+        if entry in self.way:
+            names = [self.image.word(at) for at in self.way[self.way.index(entry):]]
+            raise Refusal("recursion: " + " -> ".join([*names, self.image.word(entry)]))
+        self.way.append(entry)
+        try:
+            return self.walk(entry, known)
+        finally:
+            self.way.pop()
+
+    def walk(self, entry, known):
+        graph = self.graph(entry)
+        # What they leave alone is known to those who call them.
+        for block in graph.blocks.values():
+            for where, target in block.calls:
+                for to in self.targets(entry, target, where):
+                    self.of(to)
+        turns = Turns(graph, self.machine, {place: (low, high) for place, low, high in known},
+                      self.table.guessed(graph))
+        self.turns[entry, known] = turns
+        if not known:
+            self.machine.kept[entry] = self.kept(graph, turns)
+        found = Summary(entry)
+        bodies = {}
+        for header, loop in graph.loops.items():
+            row = self.table.row(graph, loop, turns.proven.get(header))
+            if row is not None and turns.proven.get(header, row) > row:
+                del turns.proven[header]
+                turns.how.pop(header)
+            if row is not None:
+                bodies[header] = row
+            how = turns.how.get(header) or ("a row" if row is not None else "")
+            count = turns.proven.get(header, row)
+            for latch in loop.latches:
+                found.loops.append(LoopFound(entry, header, latch, count, how))
+            if count is None:
+                found.open.add((entry, header))
+        cost, called = self.costs(graph, turns, entry)
+        found.below = list({id(one): one for ones in called.values() for _, one in ones}.values())
+        for one in found.below:
+            found.open |= one.open
+        found.stack = self.stack(graph, turns, called)
+        if found.open:
+            return found
+        found.bound, times = dearest(graph, turns.flow.leaving, turns.proven, bodies, cost)
+        found.own = sum(len(graph.blocks[at].instructions) * n for at, n in times.items())
+        for at, ones in called.items():
+            if times.get(at):
+                found.calls += [(times[at], one) for _, one in ones if one.bound]
+        return found
+
+    def costs(self, graph, turns, entry):
+        """Cost by block, and [(address, Summary)] by block."""
+        cost, called = {}, {}
+        for at, block in graph.blocks.items():
+            cost[at] = len(block.instructions)
+            if not block.calls or at not in turns.flow.entering:
+                continue
+            state = turns.flow.entering[at].copy()
+            ones = {where: target for where, target in block.calls}
+            for instruction in block.instructions:
+                if instruction.address in ones:
+                    known = self.arguments(state)
+                    summaries = [self.of(to, known) for to in
+                                 self.targets(entry, ones[instruction.address], instruction.address)]
+                    dearest_one = max(summaries, key=lambda one: one.bound)
+                    cost[at] += dearest_one.bound
+                    called.setdefault(at, []).append((instruction.address, dearest_one))
+                    called[at] += [(instruction.address, dataclasses.replace(one, bound=0))
+                                   for one in summaries if one is not dearest_one]
+                turns.flow.step(state, instruction)
+        return cost, called
+
+    def arguments(self, state):
+        known = []
+        limits = state.limits()
+        for place in self.machine.ARGUMENTS:
+            value = state.places.get(place)
+            if value is not None:
+                low, high = state.range_of(value)
+                # What is not wide says something of a count; an address says nothing.
+                if (low, high) != limits and high - low < 1 << 16 and abs(high) < 1 << 24:
+                    known.append((place, low, high))
+        return tuple(known)
+
+    def stack(self, graph, turns, called):
+        """Bytes: the deepest that its pointer goes, with whom it calls there."""
+        most = 0
+        for at, state in turns.flow.entering.items():
+            state = state.copy()
+            ones = {}
+            for where, one in called.get(at, ()):
+                ones[where] = max(ones.get(where, 0), one.stack)
+            for instruction in graph.blocks[at].instructions:
+                below = ones.get(instruction.address, 0)
+                most = max(most, self.depth(graph, state) + below)
+                turns.flow.step(state, instruction)
+                most = max(most, self.depth(graph, state))
+        return most
+
+
+    def depth(self, graph, state):
+        symbol, offset = state.places[self.machine.STACK]
+        if symbol != ("e", self.machine.STACK):
+            raise Refusal(f"{self.image.word(graph.entry)}: takes as much stack as it wants")
+        return -offset

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""loops.toml: counts of the loops that no register tells, each with the line that keeps it.
+
+A row says of which loops it is by two regular expressions: `function`, of the names as C++ writes them, and
+`line`, of file, number and text of the source where the loop goes round again. It holds only where no count was
+proven, or where it `tightens` one. `count` is how often the loop's end is reached at most.
+"""
+
+import functools
+import pathlib
+import re
+import tomllib
+
+
+class Table:
+    def __init__(self, file, root):
+        self.root = pathlib.Path(root)
+        self.rows = []
+        if file is not None:
+            with open(file, "rb") as stream:
+                self.rows = tomllib.load(stream).get("loop", [])
+        self.used = {}  # places by number of a row
+        self.lines = {}  # [(function, file, line)] by address
+
+    def prepare(self, image, graphs):
+        places = set()
+        for graph in graphs:
+            for loop in graph.loops.values():
+                places.add(loop.header)
+                places |= {graph.blocks[latch].last.address for latch in loop.latches}
+        self.lines = image.lines_of(sorted(places))
+
+    @functools.lru_cache(maxsize=None)
+    def source(self, file):
+        try:
+            return pathlib.Path(file).read_text("utf-8").splitlines()
+        except OSError:
+            return []
+
+    def frames(self, graph, loop):
+        """(function, file, line, text) of what the loop's ends and its head come of, the innermost first."""
+        found = []
+        for at in [*(graph.blocks[latch].last.address for latch in loop.latches), loop.header]:
+            for name, file, line in self.lines.get(at, ()):
+                lines = self.source(file) if line else []
+                text = " ".join(part.strip() for part in lines[line - 1 : line + 1]) if line <= len(lines) else ""
+                if file.startswith(f"{self.root}/"):
+                    file = file[len(f"{self.root}/"):]
+                frame = (name, file, line, text)
+                if frame not in found:
+                    found.append(frame)
+        return found or [(graph.image.word(graph.entry), "", 0, "")]
+
+    def row(self, graph, loop, proven):
+        """The count of the row that holds; None without one."""
+        if not self.rows:
+            return None
+        frames = self.frames(graph, loop)
+        names = {graph.image.word(graph.entry), *(frame[0] for frame in frames)}
+        for n, row in enumerate(self.rows):
+            if proven is not None and not row.get("tightens"):
+                continue
+            if not any(re.search(row["function"], name) for name in names):
+                continue
+            if "line" in row and not any(re.search(row["line"], f"{file}:{line}: {text}")
+                                         for _, file, line, text in frames):
+                continue
+            self.used.setdefault(n, set()).add(self.place(graph, loop))
+            return row["count"]
+        return None
+
+    def place(self, graph, loop):
+        inside = [frame for frame in self.frames(graph, loop) if frame[3]]
+        name, file, line, text = inside[0] if inside else self.frames(graph, loop)[0]
+        at = graph.blocks[loop.latches[0]].last.address
+        return f"{file or '?'}:{line} ({name or graph.image.word(graph.entry)}, {at:#x}): {text}"
+
+    def guessed(self, graph):
+        return {}
