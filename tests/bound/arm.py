@@ -4,6 +4,7 @@
 import re
 
 from listing import Refusal
+from sums import either_bit, masked, multiple, scaled, shifted, shifted_span, spread, total
 from values import OPPOSITE
 
 BITS = 32
@@ -138,7 +139,7 @@ class Memory:
 
 
 class Arm:
-    BITS, STACK, ARGUMENTS, CALLED = BITS, STACK, ARGUMENTS, CALLED
+    BITS, STACK, FRAME, ARGUMENTS, CALLED = BITS, STACK, (STACK,), ARGUMENTS, CALLED
 
     def __init__(self, image):
         self.image = image
@@ -292,7 +293,7 @@ class Arm:
         elif value is None and base in ("orr", "eor"):
             a = state.get(rest[0]) if len(rest) > 1 else state.get(target)
             b = self.operand(state, rest[1:] if len(rest) > 1 else rest)
-            span = self.both(state, a, b, base)
+            span = either_bit(state, a, b, base == "orr")
         if value is not None:
             state.put(target, value)
         elif span is not None:
@@ -313,61 +314,13 @@ class Arm:
             a, b = b, a
         if a is None or b is None:
             index = self.span(state, rest[1:]) if base in ("add", "addw") else None
-            made = ("plus", a, *index) if index and a else None
-            span = None
-            if index and a:
-                low, high = state.range_of(a)
-                span = low + index[0], high + index[1]
-            return None, self.fits(state, span), made, None
-        less = base not in ("add", "addw")
-        minus = (a, b) if less else (a, (None, -b[1])) if b[0] is None and b[1] != -(1 << 31) else None
-        if b[0] is None:
-            return (a[0], a[1] - b[1] if less else a[1] + b[1]), None, None, minus
-        if a[0] is None and not less:
-            return (b[0], a[1] + b[1]), None, None, None
-        if less and a[0] == b[0]:
-            return (None, a[1] - b[1]), None, None, minus
-        (a_low, a_high), (b_low, b_high) = state.range_of(a), state.range_of(b)
-        span = (a_low - b_high, a_high - b_low) if less else (a_low + b_low, a_high + b_high)
-        limits = state.limits()
-        made = None
-        if not less and (b_low, b_high) != limits:
-            made = ("plus", a, b_low, b_high, self.stride(state, b))
-        elif not less and (a_low, a_high) != limits:
-            made = ("plus", b, a_low, a_high, self.stride(state, a))
-        elif less and (b_low, b_high) != limits:
-            made = ("plus", a, -b_high, -b_low, self.stride(state, b))
-        return None, self.fits(state, span), made, minus
-
-    @staticmethod
-    def stride(state, value):
-        how = state.made.get(value[0])
-        return 1 << how[2] if how and how[0] == "lsl" and value[1] % (1 << how[2]) == 0 else 1
-
-    @staticmethod
-    def fits(state, span):
-        low, high = state.limits()
-        return span if span and low <= span[0] and span[1] <= high and span != (low, high) else None
+            return (*spread(state, a, index, BITS), None)
+        return total(state, a, b, base not in ("add", "addw"), BITS)
 
     def span(self, state, rest):
-        """The range of a shifted operand."""
+        """(low, high, stride) of a shifted operand."""
         if len(rest) == 2 and (found := re.fullmatch(r"lsl #(\d+)", rest[1])):
-            low, high = state.range_of(state.get(rest[0]))
-            by = int(found[1])
-            if (low, high) != state.limits() and abs(low) << by < 1 << 31 and abs(high) << by < 1 << 31:
-                return low << by, high << by, 1 << by
-        return None
-
-    def both(self, state, a, b, base):
-        if a is None or b is None:
-            return None
-        (a_low, a_high), (b_low, b_high) = state.range_of(a), state.range_of(b)
-        if a[0] is None and b[0] is None:
-            made = a[1] | b[1] if base == "orr" else a[1] ^ b[1]
-            return made, made
-        if a_low >= 0 and b_low >= 0:
-            top = max(a_high, b_high).bit_length()
-            return (max(a_low, b_low) if base == "orr" else 0), (1 << top) - 1
+            return scaled(state, state.get(rest[0]), int(found[1]), BITS)
         return None
 
     def bits(self, state, base, target, rest):
@@ -389,36 +342,14 @@ class Arm:
         if base == "sbfx":
             top = number(rest[2]) - 1
             return None, (-(1 << top), (1 << top) - 1), None
-        if base == "and" and n is not None and n >= 0:
-            if 0 <= low and n + 1 & n == 0 and high <= n:
-                return a, None, None
-            return None, (0, min(n, high) if low >= 0 else n), ("and", a, b)
-        if base == "and" and b is not None:
-            other = state.range_of(b)
-            tops = [top for bottom, top in ((low, high), other) if bottom >= 0]
-            return None, (0, min(tops)) if tops else None, ("and", a, b)
-        if base == "bic" and n is not None and n >= 0 and n & (n + 1) == 0:
-            # Down to a multiple.
-            return None, self.fits(state, (low & ~n, high & ~n)), ("lsl", None, n.bit_length())
-        if base == "bic" and low >= 0:
-            return None, (0, high), None
+        if base in ("and", "bic"):
+            return masked(state, base, a, b)
         if n is not None and base in ("lsl", "lsr", "asr"):
-            n &= 255
-            if a[0] is None:
-                return (None, shifted(a[1], base, n)), None, None
-            if base == "lsl":
-                return None, self.fits(state, (low << n, high << n)) if n < 32 else None, ("lsl", a, n)
-            if base == "lsr" and low < 0:
-                return None, (0, (1 << 32 - n) - 1) if n else None, ("lsr", a, n)
-            return None, (low >> n, high >> n), (base, a, n)
+            return shifted_span(state, base, a, n & 255, BITS)
         if base == "udiv" and low >= 0:
             return None, (0, high), None
         if base == "mul" and b is not None:
-            other = state.range_of(b)
-            ends = [x * y for x in (low, high) for y in other]
-            if a[0] is None and b[0] is None:
-                return (None, a[1] * b[1]), None, None
-            return None, self.fits(state, (min(ends), max(ends))), None
+            return multiple(state, a, b, BITS)
         return None, None, None
 
     # ---------------------------------------------------------------------------------------------
@@ -565,16 +496,3 @@ class Arm:
             register = re.sub(r"\[\d+\]$", "", register)
             for name in singles(register) or ([register] if register in CORE else []):
                 state.fresh(name, where)
-
-
-def shifted(value, kind, by):
-    unsigned = value & 0xFFFFFFFF
-    by &= 255
-    if kind == "lsl":
-        return unsigned << by & 0xFFFFFFFF
-    if kind == "lsr":
-        return unsigned >> by
-    if kind == "asr":
-        return (unsigned - (1 << 32) if unsigned >> 31 else unsigned) >> by
-    by &= 31
-    return (unsigned >> by | unsigned << 32 - by) & 0xFFFFFFFF

@@ -11,6 +11,7 @@ import pathlib
 import sys
 
 from arm import Arm
+from facts import Facts
 from listing import Image, Refusal
 from program import Program
 from table import Table
@@ -44,6 +45,7 @@ def parse(words=None):
     parser.add_argument("--tools", default="")
     parser.add_argument("--calls", default=HERE.parent / "memory" / "calls.toml")
     parser.add_argument("--table", default=HERE / "loops.toml", type=pathlib.Path)
+    parser.add_argument("--facts", default=HERE / "facts.toml", type=pathlib.Path)
     parser.add_argument("--source", default=HERE.parents[1])
     parser.add_argument("--root", default=r"BareEcu<.*>::step\(")
     parser.add_argument("--loops", action="store_true")
@@ -56,7 +58,8 @@ def main():
     image = Image(options.tools, options.image)
     machine = machine_of(image)
     table = Table(options.table if options.table.exists() else None, options.source)
-    program = Program(image, machine, options.calls, table)
+    facts = Facts(options.facts if options.facts.exists() else None)
+    program = Program(image, machine, options.calls, table, facts)
     root = program.entry_of(options.root)
     graphs = reached(program, root)
     table.prepare(image, graphs.values())
@@ -64,7 +67,7 @@ def main():
     print(f"{len(graphs)} functions, {sum(len(g.back_edges()) for g in graphs.values())} back edges, "
           f"{sum(len(g.loops) for g in graphs.values())} loops")
     if options.loops:
-        for (entry, known), summary in sorted(program.summaries.items()):
+        for (entry, known, _), summary in sorted(program.summaries.items()):
             for loop in summary.loops:
                 graph = program.graphs[entry]
                 place = table.place(graph, graph.loops[loop.header])

@@ -46,7 +46,7 @@ class Flow:
             for instruction in self.graph.blocks[start].instructions:
                 self.step(state, instruction)
                 for place, value in state.places.items():
-                    if place != self.machine.STACK and value[0] == ("e", self.machine.STACK) and \
+                    if place not in self.machine.FRAME and value[0] == ("e", self.machine.STACK) and \
                             (not isinstance(place, tuple) or place[2] >= 4):
                         lowest = min(lowest, value[1]) if lowest is not None else value[1]
         return None if lowest is None else lowest + back
@@ -206,7 +206,7 @@ class Flow:
         low, high = self.wide(at, symbol, low, high, header)
         if at in self.turns:
             low, high = self.after_turns(at, symbol, values, states, low, high)
-        if (low, high) != merged.limits():
+        if (low, high) != merged.limits(symbol):
             merged.ranges[symbol] = (low, high)
 
     def after_turns(self, at, symbol, values, states, low, high):
@@ -224,7 +224,7 @@ class Flow:
         if not header:
             return low, high
         key = (at, symbol)
-        bottom, top = -(1 << self.machine.BITS - 1), (1 << self.machine.BITS - 1) - 1
+        bottom, top = State(self.machine.BITS, None).limits(symbol)
         if key in self.widened:
             old, count = self.widened[key]
             if low < old[0] or high > old[1]:
@@ -278,9 +278,8 @@ class Flow:
                 state.places, state.ranges, state.made, state.flags = one.places, one.ranges, one.made, one.flags
             return
         flags = yes.flags if yes.flags == no.flags else None
-        tested = state.flags and (state.flags[0], state.flags[1] or (None, 0))
-        if tested and state.flags[1] is None and condition not in ("eq", "ne", "mi", "pl"):
-            tested = None
+        tests = state.tests(condition)
+        tested = tests[0][:2] if len(tests) == 1 and len(state.flags) == 2 else None
         news = []
         places = {}
         for place, value in yes.places.items():
@@ -298,12 +297,11 @@ class Flow:
         state.places, state.ranges = places, ranges
         state.made = {key: how for key, how in yes.made.items() if no.made.get(key) == how}
         state.flags = flags
-        limits = state.limits()
         for place, *_ in news:
             # A constant that both ways have is one; the condition may have changed what is written.
             state.places[place] = (None, 0)
         for place, low, high, made in news:
-            if (low, high) == limits:
+            if (low, high) == state.limits(("d", where, place)):
                 state.fresh(place, where, made=made)
             else:
                 state.fresh(place, where, low, high, made=made)

@@ -33,7 +33,7 @@ class Summary:
 
 
 class Program:
-    def __init__(self, image, machine, calls_file, table, facts=None):
+    def __init__(self, image, machine, calls_file, table, facts):
         self.image, self.machine = image, machine
         self.graphs, self.summaries, self.turns = {}, {}, {}
         with open(calls_file, "rb") as stream:
@@ -41,7 +41,6 @@ class Program:
         self.table = table
         self.facts = facts
         self.way = []
-        self.problems = []
 
     def graph(self, entry):
         if entry not in self.graphs:
@@ -84,68 +83,75 @@ class Program:
 
     # A function, in what is known of its arguments. ------------------------------------------------
 
-    def of(self, entry, known=()):
-        if (entry, ()) not in self.summaries:
-            self.summaries[entry, ()] = self.summary(entry, ())
-        plain = self.summaries[entry, ()]
-        if not plain.open or not known:
-            return plain
-        if (entry, known) not in self.summaries:
-            self.summaries[entry, known] = self.summary(entry, known)
-        return self.summaries[entry, known]
+    def of(self, entry, known=(), cut=frozenset()):
+        """`known`: ranges of its arguments; `cut`: functions whose instructions are counted elsewhere."""
+        plain = self.once(entry, (), cut)
+        return plain if not plain.open or not known else self.once(entry, known, cut)
 
-    def summary(self, entry, known):
+    def once(self, entry, known, cut):
+        if (entry, known, cut) not in self.summaries:
+            self.summaries[entry, known, cut] = self.summary(entry, known, cut)
+        return self.summaries[entry, known, cut]
+
+    def summary(self, entry, known, cut):
         if entry in self.way:
             names = [self.image.word(at) for at in self.way[self.way.index(entry):]]
             raise Refusal("recursion: " + " -> ".join([*names, self.image.word(entry)]))
         self.way.append(entry)
         try:
-            return self.walk(entry, known)
+            return self.walk(entry, known, cut)
         finally:
             self.way.pop()
 
-    def walk(self, entry, known):
+    def walk(self, entry, known, outer):
         graph = self.graph(entry)
         # What they leave alone is known to those who call them.
         for block in graph.blocks.values():
             for where, target in block.calls:
                 for to in self.targets(entry, target, where):
                     self.of(to)
-        turns = Turns(graph, self.machine, {place: (low, high) for place, low, high in known},
-                      self.table.guessed(graph))
-        self.turns[entry, known] = turns
-        if not known:
-            self.machine.kept[entry] = self.kept(graph, turns)
+        turns = self.counts(graph, known)
+        facts = self.facts.within(self, entry)
+        cut = outer | {at for fact in facts for at in fact.entries}
         found = Summary(entry)
         bodies = {}
+        proven = dict(turns.proven)
         for header, loop in graph.loops.items():
-            row = self.table.row(graph, loop, turns.proven.get(header))
-            if row is not None and turns.proven.get(header, row) > row:
-                del turns.proven[header]
-                turns.how.pop(header)
-            if row is not None:
-                bodies[header] = row
-            how = turns.how.get(header) or ("a row" if row is not None else "")
-            count = turns.proven.get(header, row)
+            row = self.table.row(graph, loop, proven.get(header))
+            how = turns.how.get(header, "")
+            if row is not None and proven.get(header, row) >= row:
+                bodies[header], how = row, "a row"
+                proven.pop(header, None)
             for latch in loop.latches:
-                found.loops.append(LoopFound(entry, header, latch, count, how))
-            if count is None:
+                found.loops.append(LoopFound(entry, header, latch, proven.get(header, bodies.get(header)), how))
+            if header not in proven and header not in bodies:
                 found.open.add((entry, header))
-        cost, called = self.costs(graph, turns, entry)
+        cost, called = self.costs(graph, turns, entry, cut)
         found.below = list({id(one): one for ones in called.values() for _, one in ones}.values())
         for one in found.below:
             found.open |= one.open
         found.stack = self.stack(graph, turns, called)
         if found.open:
             return found
-        found.bound, times = dearest(graph, turns.flow.leaving, turns.proven, bodies, cost)
+        found.bound, times = dearest(graph, turns.flow.leaving, proven, bodies, cost)
         found.own = sum(len(graph.blocks[at].instructions) * n for at, n in times.items())
         for at, ones in called.items():
             if times.get(at):
                 found.calls += [(times[at], one) for _, one in ones if one.bound]
+        for times_within, one in self.facts.added(self, facts, outer):
+            found.bound += times_within * one.bound
+            found.calls.append((times_within, one))
         return found
 
-    def costs(self, graph, turns, entry):
+    def counts(self, graph, known):
+        key = (graph.entry, known)
+        if key not in self.turns:
+            self.turns[key] = Turns(graph, self.machine, {place: (low, high) for place, low, high in known})
+            if not known:
+                self.machine.kept[graph.entry] = self.kept(graph, self.turns[key])
+        return self.turns[key]
+
+    def costs(self, graph, turns, entry, cut):
         """Cost by block, and [(address, Summary)] by block."""
         cost, called = {}, {}
         for at, block in graph.blocks.items():
@@ -157,13 +163,15 @@ class Program:
             for instruction in block.instructions:
                 if instruction.address in ones:
                     known = self.arguments(state)
-                    summaries = [self.of(to, known) for to in
-                                 self.targets(entry, ones[instruction.address], instruction.address)]
-                    dearest_one = max(summaries, key=lambda one: one.bound)
-                    cost[at] += dearest_one.bound
-                    called.setdefault(at, []).append((instruction.address, dearest_one))
+                    summaries = []
+                    for to in self.targets(entry, ones[instruction.address], instruction.address):
+                        one = self.of(to, known, cut - {to})
+                        summaries.append(dataclasses.replace(one, bound=0) if to in cut else one)
+                    summaries.sort(key=lambda one: -one.bound)
+                    cost[at] += summaries[0].bound
+                    called.setdefault(at, []).append((instruction.address, summaries[0]))
                     called[at] += [(instruction.address, dataclasses.replace(one, bound=0))
-                                   for one in summaries if one is not dearest_one]
+                                   for one in summaries[1:]]
                 turns.flow.step(state, instruction)
         return cost, called
 

@@ -74,6 +74,3 @@ class Table:
         name, file, line, text = inside[0] if inside else self.frames(graph, loop)[0]
         at = graph.blocks[loop.latches[0]].last.address
         return f"{file or '?'}:{line} ({name or graph.image.word(graph.entry)}, {at:#x}): {text}"
-
-    def guessed(self, graph):
-        return {}

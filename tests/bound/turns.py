@@ -8,6 +8,7 @@ not at all; so the first round in which it leaves follows from the difference be
 import math
 
 from flow import Flow
+from values import tests
 
 # A count above this is as good as none.
 MOST = 1 << 16
@@ -81,15 +82,11 @@ class Turns:
         for instruction in block.instructions:
             self.flow.step(state, instruction)
         for n, (to, condition, register) in enumerate(block.successors):
-            flags = state.flags if register is None else (state.get(register), (None, 0))
-            if to not in loop.blocks or condition is None or flags is None:
+            if to not in loop.blocks or condition is None:
                 continue
-            a, b = flags
-            if b is None:
-                if condition not in ("eq", "ne", "mi", "pl"):
-                    continue
-                b = (None, 0)
-            for one, other, what in state.implied(a, b, condition):
+            flags = state.flags if register is None else (state.get(register), (None, 0))
+            for one, other, what in [found for a, b, true in tests(flags, condition)
+                                     for found in state.implied(a, b, true)]:
                 for count, how in (
                         (self.shrinking(loop, state, one, other, what), "a word that loses bits in each round"),
                         (self.counting(loop, state, one, other, what), "a counter")):
@@ -168,7 +165,7 @@ class Turns:
         (a_low, a_high), (b_low, b_high) = state_a.range_of(a), state_b.range_of(b)
         now = state.range_of(b) if other[0] is state else (b_low, b_high)
         b_low, b_high = max(b_low, now[0]), min(b_high, now[1])
-        bottom, top = state.limits()
+        bottom, top = state.limits(a[0] or b[0])
         if condition in ("cc", "lo", "ls") and step > 0 and b_low >= 0:
             a_low = max(a_low, 0)
         if condition in ("lt", "mi", "le", "cc", "lo", "ls") and step > 0:
@@ -272,9 +269,9 @@ class Turns:
                 if how is None:
                     count = None
                 elif how[0] == "and" and {how[1], how[2]} == {(start, 0), (start, -1)}:
-                    count = max(count, self.machine.BITS)
+                    count = max(count, state.width(place))
                 elif how[0] == "lsr" and how[1] == (start, 0) and how[2] > 0:
-                    count = max(count, -(-self.machine.BITS // how[2]))
+                    count = max(count, -(-state.width(place) // how[2]))
                 else:
                     count = None
                 if count is None:

@@ -7,7 +7,35 @@ came about. All sums are modulo the width of a register.
 """
 
 OPPOSITE = {"eq": "ne", "cs": "cc", "mi": "pl", "vs": "vc", "hi": "ls", "ge": "lt", "gt": "le", "hs": "lo"}
+OPPOSITE["bit"] = "nobit"  # of a word that is not looked at here
 OPPOSITE |= {other: one for one, other in OPPOSITE.items()}
+
+
+def mentions(part, symbol):
+    return isinstance(part, tuple) and (part == symbol or any(mentions(one, symbol) for one in part))
+
+
+def tests(flags, condition):
+    """Flags are (a, b), of a - b; (a, None), of a alone; or (a, b, those before, condition, flags where that
+    was false), as a comparison under a condition has it."""
+    if flags is None or condition in ("bit", "nobit"):
+        return []
+    if len(flags) == 5:
+        a, b, before, under, otherwise = flags
+        if holds(otherwise, condition):
+            return []
+        return [*tests(before, under), *tests((a, b), condition)]
+    a, b = flags
+    if b is None:
+        return [(a, (None, 0), condition)] if condition in ("eq", "ne", "mi", "pl") else []
+    return [(a, b, condition)]
+
+
+def holds(flags, condition):
+    n, z, c, v = (bool(flags & bit) for bit in (8, 4, 2, 1))
+    return {"eq": z, "ne": not z, "cs": c, "hs": c, "cc": not c, "lo": not c, "mi": n, "pl": not n, "vs": v,
+            "vc": not v, "hi": c and not z, "ls": not c or z, "ge": n == v, "lt": n != v,
+            "gt": not z and n == v, "le": z or n != v}[condition]
 
 
 class State:
@@ -18,7 +46,7 @@ class State:
 
     def __init__(self, bits, floor):
         self.places, self.ranges, self.made = {}, {}, {}
-        self.flags = None  # (a, b): of a - b; (a, None): of a alone
+        self.flags = None  # see tests()
         self.bits = bits
         self.floor = floor  # what lies from here up in the stack may be written through pointers
 
@@ -28,19 +56,26 @@ class State:
         other.made, other.flags = dict(self.made), self.flags
         return other
 
-    def limits(self):
-        return -(1 << (self.bits - 1)), (1 << (self.bits - 1)) - 1
+    def width(self, place):
+        """Bits of a place; on a machine of 64 a register has a half of its own, and a slot may be one."""
+        half = place[0] == "w" if isinstance(place, str) else place[2] == 4
+        return 32 if half else self.bits
 
-    def signed(self, number):
-        number &= (1 << self.bits) - 1
-        return number - (1 << self.bits) if number >> (self.bits - 1) else number
+    def limits(self, symbol=None):
+        bits = self.bits if symbol is None else self.width(symbol[1] if symbol[0] == "e" else symbol[2])
+        return -(1 << (bits - 1)), (1 << (bits - 1)) - 1
+
+    def signed(self, number, bits=None):
+        bits = bits or self.bits
+        number &= (1 << bits) - 1
+        return number - (1 << bits) if number >> (bits - 1) else number
 
     def get(self, place):
         return self.places[place]
 
     def put(self, place, value):
         symbol, offset = value
-        self.places[place] = (symbol, self.signed(offset))
+        self.places[place] = (symbol, self.signed(offset, self.width(place)))
 
     def fresh(self, place, where, low=None, high=None, made=None):
         """Something new, which this instruction makes."""
@@ -48,7 +83,7 @@ class State:
         self.forget(symbol)
         if low is not None:
             if low == high:
-                self.places[place] = (None, self.signed(low))
+                self.put(place, (None, low))
                 return
             self.ranges[symbol] = (low, high)
         if made is not None and not any(isinstance(part, tuple) and part[0] == symbol for part in made):
@@ -67,14 +102,14 @@ class State:
         for other in [key for key, how in self.made.items() if any(
                 isinstance(part, tuple) and part[0] == symbol for part in how)]:
             del self.made[other]
-        if self.flags and any(part and part[0] == symbol for part in self.flags):
+        if mentions(self.flags, symbol):
             self.flags = None
 
     def range_of(self, value):
         symbol, offset = value
         if symbol is None:
             return offset, offset
-        low, high = self.limits()
+        low, high = self.limits(symbol)
         if symbol not in self.ranges:
             return low, high
         first, last = self.ranges[symbol]
@@ -89,7 +124,7 @@ class State:
             return False
         symbol, offset = value
         if symbol is not None:
-            low, high = self.limits()
+            low, high = self.limits(symbol)
             if low <= first - offset and last - offset <= high and (first, last) != (low, high):
                 old = self.ranges.get(symbol, (low, high))
                 new = max(old[0], first - offset), min(old[1], last - offset)
@@ -128,19 +163,18 @@ class State:
 
     def given(self, condition, rank):
         """This state where `condition` of the flags is true; None where it can't be."""
-        if self.flags is None:
-            return self.copy()
-        a, b = self.flags
-        if b is None:
-            if condition not in ("eq", "ne", "mi", "pl"):
-                return self.copy()
-            b = (None, 0)
         state = self.copy()
-        for one, other, what in self.implied(a, b, condition):
-            if not state.assume(one, other, what, rank):
-                return None
-        state.decide(a, b, condition)
+        tests = self.tests(condition)
+        for a, b, what in tests:
+            for one, other, true in self.implied(a, b, what):
+                if not state.assume(one, other, true, rank):
+                    return None
+            state.decide(a, b, what)
         return state
+
+    def tests(self, condition):
+        """[(a, b, condition)]: what the flags say where `condition` is true."""
+        return tests(self.flags, condition)
 
     def decide(self, a, b, condition):
         """What is one of two by this very condition is one of them now."""
@@ -173,7 +207,7 @@ class State:
             return self.exact(a[1], b[1], condition) if a[0] is None else \
                 not (condition == "ne" and a[1] == b[1]) and not (condition == "eq" and a[1] != b[1])
         (a_low, a_high), (b_low, b_high) = self.range_of(a), self.range_of(b)
-        low, high = self.limits()
+        low, high = self.limits(a[0] or b[0])
         if condition == "eq":
             if not (self.narrow(a, b_low, b_high) and self.narrow(b, a_low, a_high)):
                 return False
