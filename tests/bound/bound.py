@@ -10,6 +10,7 @@ import argparse
 import pathlib
 import sys
 
+from aarch64 import AArch64
 from arm import Arm
 from facts import Facts
 from listing import Image, Refusal
@@ -17,7 +18,7 @@ from program import Program
 from table import Table
 
 HERE = pathlib.Path(__file__).parent
-MACHINES = {40: Arm}
+MACHINES = {40: Arm, 183: AArch64}
 
 
 def machine_of(image):

@@ -24,7 +24,7 @@ class Instruction:
 
 LINE = re.compile(r"^\s*([0-9a-f]+):\t((?:[0-9a-f]{2,8} )+)\s*\t(\S+)(?:\s+(.*))?$")
 ADDRESS = re.compile(r"^(?:.*[ ,])?([0-9a-f]+) <[^>]*>$")
-BESIDE = re.compile(r"\s*(?:;|@|//|#(?=\s))\s*(.*)$")
+BESIDE = re.compile(r"\s(?:;|@|//)\s*(.*)$")
 
 
 def output_of(*command):
