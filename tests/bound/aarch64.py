@@ -6,7 +6,7 @@ import re
 
 from listing import Refusal
 from sums import either_bit, masked, multiple, scaled, shifted_span, spread, total
-from values import OPPOSITE
+from values import OPPOSITE, half
 
 SIZES = {"ldrb": 1, "ldrh": 2, "ldrsb": 1, "ldrsh": 2, "ldrsw": 4, "strb": 1, "strh": 2, "ldpsw": 4}
 LOADED = {"ldrb": (0, 255), "ldrh": (0, 65535), "ldrsb": (-128, 127), "ldrsh": (-32768, 32767),
@@ -88,6 +88,11 @@ class AArch64:
         return self.words[at]
 
     @staticmethod
+    def whole(place):
+        """Of what it is the lower half."""
+        return "x" + place[1:] if isinstance(place, str) and place[0] == "w" else None
+
+    @staticmethod
     def opposite(condition):
         return OPPOSITE[condition]
 
@@ -166,17 +171,27 @@ class AArch64:
             state.fresh(name, where, made=made)
         if name == "sp":
             return
-        other = ("w" if name[0] == "x" else "x") + name[1:]
         now = state.places[name]
+        if name[0] == "x":
+            state.places["w" + name[1:]] = half(now)
+            return
+        other = "x" + name[1:]
         low, high = state.range_of(now)
         if now[0] is None:
-            state.put(other, (None, now[1] & 0xFFFFFFFF if other[0] == "x" else now[1]))
-        elif (0 <= low if other[0] == "x" else -(1 << 31) <= low) and high < 1 << 31:
-            state.fresh(other, where, low, high, made=("plus", now, 0, 0, 0))
-        elif other[0] == "x":
-            state.fresh(other, where, 0, (1 << 32) - 1)
+            state.put(other, (None, now[1] & 0xFFFFFFFF))
+        elif low >= 0:
+            self.extended(state, other, now, where, low, high)
         else:
-            state.fresh(other, where)
+            state.fresh(other, where, 0, (1 << 32) - 1)
+
+    @staticmethod
+    def extended(state, name, value, where, low, high):
+        """A whole register of a lower half that lies between low and high."""
+        symbol, offset = value
+        if symbol[0] == "l" and state.range_of((symbol[1], offset)) == (low, high):
+            state.put(name, (symbol[1], offset))
+        else:
+            state.fresh(name, where, low, high, made=("plus", value, 0, 0, 0))
 
     def called(self, state, where, target):
         kept = self.kept.get(target, ())
@@ -297,6 +312,9 @@ class AArch64:
             first, last = (0, (1 << top) - 1) if name[0] == "u" else (-(1 << top - 1), (1 << top - 1) - 1)
             low, high = state.range_of(a)
             if first <= low and high <= last:
+                if a[0] is not None and a[0][0] == "l" and bits == 64 and \
+                        state.range_of((a[0][1], a[1])) == (low, high):
+                    return (a[0][1], a[1]), None, None
                 return None, (low, high), ("plus", a, 0, 0, 0)
             return None, (first, last) if last < 1 << bits - 1 else None, None
         if name in ("ubfx", "sbfx"):

@@ -157,6 +157,10 @@ class Arm:
         return self.words[at]
 
     @staticmethod
+    def whole(_):
+        return None
+
+    @staticmethod
     def opposite(condition):
         return OPPOSITE[condition]
 

@@ -6,7 +6,7 @@ symbol, ("p", block, place), and their offsets from it.
 """
 
 from listing import Refusal
-from values import State
+from values import State, half, is_of
 
 # After so many rounds a range that still grows has no end on that side.
 PATIENCE = 3
@@ -32,6 +32,8 @@ class Flow:
             self.run()
 
     def symbol_rank(self, symbol):
+        if symbol[0] == "l":
+            symbol = symbol[1]
         if symbol[0] == "p":
             return (1, self.graph.rank[symbol[1]], 0)
         if symbol[0] == "d":
@@ -132,7 +134,7 @@ class Flow:
 
     def join(self, at, states, header):
         merged = State(self.machine.BITS, self.floor)
-        leaders = {}
+        leaders, halves = {}, []
         one = states[0]
         kept = self.unchanged(at, states) if header else {}
         for place in sorted(one.places, key=str):
@@ -146,10 +148,14 @@ class Flow:
                     leaders[("forced", place)] = (place, values)
                     merged.places[place] = (("p", at, place), 0)
                 continue
+            whole = self.machine.whole(place)
+            if whole is not None and all(state.places[place] == half(state.places[whole]) for state in states):
+                halves.append((place, whole))
+                continue
             if place in kept:
                 merged.places[place] = kept[place]
                 continue
-            own = any(symbol is not None and symbol[0] == "p" and symbol[1] == at for symbol, _ in values)
+            own = any(is_of(symbol, at) for symbol, _ in values)
             if not own and all(value == values[0] for value in values):
                 merged.places[place] = values[0]
                 continue
@@ -160,10 +166,12 @@ class Flow:
             else:
                 leader, others = leaders[key]
                 merged.put(place, (("p", at, leader), values[0][1] - others[0][1]))
+        for place, whole in halves:
+            merged.places[place] = half(merged.places[whole])
         for leader, values in leaders.values():
             self.span(at, ("p", at, leader), values, states, merged, header)
         for symbol in {symbol for symbol, _ in merged.places.values() if symbol is not None}:
-            if symbol[:2] == ("p", at):
+            if is_of(symbol, at):
                 continue
             spans = [state.ranges.get(symbol) for state in states]
             if None not in spans:
@@ -171,7 +179,7 @@ class Flow:
                                                   header)
             made = [state.made.get(symbol) for state in states]
             if made[0] is not None and all(how == made[0] for how in made) and not any(
-                    isinstance(part, tuple) and part[0] and part[0][:2] == ("p", at) for part in made[0]):
+                    isinstance(part, tuple) and is_of(part[0], at) for part in made[0]):
                 merged.made[symbol] = made[0]
         return merged
 
@@ -181,7 +189,7 @@ class Flow:
         kept = {}
         for place in states[0].places:
             values = [state.places.get(place) for state in states]
-            others = {value for value in values if value and (value[0] is None or value[0][:2] != ("p", at))}
+            others = {value for value in values if value and not is_of(value[0], at)}
             if None not in values and len(others) == 1:
                 kept[place] = others.pop()
         falling = True
@@ -190,9 +198,9 @@ class Flow:
             for place, (base, offset) in kept.items():
                 for state in states:
                     symbol, more = state.places[place]
-                    if symbol is None or symbol[:2] != ("p", at):
+                    if not is_of(symbol, at):
                         continue
-                    leader = kept.get(symbol[2])
+                    leader = kept.get(symbol[2]) if symbol[0] == "p" else None
                     if leader is None or leader[0] != base or leader[1] + more != offset:
                         falling.append(place)
                         break

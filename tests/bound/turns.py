@@ -8,7 +8,7 @@ not at all; so the first round in which it leaves follows from the difference be
 import math
 
 from flow import Flow
-from values import tests
+from values import half, is_of, tests
 
 # A count above this is as good as none.
 MOST = 1 << 16
@@ -116,6 +116,8 @@ class Turns:
         return (steps, starts) if steps and starts else None
 
     def invariant(self, loop, symbol):
+        if symbol is not None and symbol[0] == "l":
+            symbol = symbol[1]
         if symbol is None or symbol[0] == "e":
             return True
         if symbol[0] == "p":
@@ -127,11 +129,14 @@ class Turns:
     def part(self, loop, value):
         """(steps, [(state, value before the first round)]) of one side of a test; no states: it is always
         the same."""
-        if value[0] is not None and value[0][:2] == ("p", loop.header):
-            found = self.evolution(loop.header, value)
+        if is_of(value[0], loop.header):
+            lower = value[0][0] == "l"
+            found = self.evolution(loop.header, (value[0][1], 0) if lower else value)
             if found is None:
                 return None
             steps, starts = found
+            if lower:
+                starts = [(state, half(start)) for state, start in starts]
             return steps, [(state, (start[0], start[1] + value[1])) for state, start in starts]
         return ({0}, []) if self.invariant(loop, value[0]) else None
 
@@ -244,6 +249,10 @@ class Turns:
             if symbol in state.made and state.made[symbol][0] == "plus":
                 _, (base, more), first, last, by = state.made[symbol]
                 now = (base, offset + more, terms, low + first, high + last, math.gcd(stride, by))
+            elif symbol[0] == "l" and symbol[1][0] == "p":
+                now = self.earlier_half(loop, (symbol, offset, terms, low, high, stride))
+                state = now[0] if now else state
+                now = now[1] if now else None
             elif symbol[0] == "p" and symbol[1] in self.graph.loops and symbol[1] not in terms and \
                     symbol[1] != loop.header and loop.header in self.graph.loops[symbol[1]].blocks:
                 evolution = self.evolution(symbol[1], (symbol, 0))
@@ -252,6 +261,20 @@ class Turns:
                     state, (base, more) = starts[0]
                     now = (base, offset + more, {**terms, symbol[1]: step}, low, high, stride)
         return found
+
+    def earlier_half(self, loop, form):
+        (_, symbol), offset, terms, low, high, stride = form
+        header = symbol[1]
+        if header not in self.graph.loops or header in terms or header == loop.header or \
+                loop.header not in self.graph.loops[header].blocks:
+            return None
+        evolution = self.evolution(header, (symbol, 0))
+        if not evolution or len(evolution[0]) != 1 or len({start for _, start in evolution[1]}) != 1:
+            return None
+        (step,), starts = evolution
+        state, value = starts[0]
+        base, more = half(value)
+        return state, (base, offset + more, {**terms, header: step}, low, high, stride)
 
     def shrinking(self, loop, state, a, b, condition):
         """x &= x - 1, x >>= n: until nothing is left."""

@@ -11,6 +11,23 @@ OPPOSITE["bit"] = "nobit"  # of a word that is not looked at here
 OPPOSITE |= {other: one for one, other in OPPOSITE.items()}
 
 
+def half(value):
+    """The lower half of a value: ("l", symbol) stands for that of what the symbol stands for."""
+    symbol, offset = value
+    if symbol is None or symbol[0] != "l":
+        offset &= 0xFFFFFFFF
+        offset -= (offset >> 31) << 32
+        return (None, offset) if symbol is None else (("l", symbol), offset)
+    return value
+
+
+def is_of(symbol, block):
+    """Whether it stands for what this block has made of several."""
+    if symbol is not None and symbol[0] == "l":
+        symbol = symbol[1]
+    return symbol is not None and symbol[:2] == ("p", block)
+
+
 def mentions(part, symbol):
     return isinstance(part, tuple) and (part == symbol or any(mentions(one, symbol) for one in part))
 
@@ -62,7 +79,12 @@ class State:
         return 32 if half else self.bits
 
     def limits(self, symbol=None):
-        bits = self.bits if symbol is None else self.width(symbol[1] if symbol[0] == "e" else symbol[2])
+        if symbol is None:
+            bits = self.bits
+        elif symbol[0] == "l":
+            bits = 32
+        else:
+            bits = self.width(symbol[1] if symbol[0] == "e" else symbol[2])
         return -(1 << (bits - 1)), (1 << (bits - 1)) - 1
 
     def signed(self, number, bits=None):
@@ -86,21 +108,21 @@ class State:
                 self.put(place, (None, low))
                 return
             self.ranges[symbol] = (low, high)
-        if made is not None and not any(isinstance(part, tuple) and part[0] == symbol for part in made):
+        if made is not None and not mentions(made, symbol):
             self.made[symbol] = made
         self.places[place] = (symbol, 0)
 
     def forget(self, symbol):
         """Of an older round of a loop: what had this symbol is something else."""
-        for place in [place for place, value in self.places.items() if value[0] == symbol]:
+        for place in [place for place, value in self.places.items() if value[0] in (symbol, ("l", symbol))]:
             if isinstance(place, tuple):
                 del self.places[place]
             else:
                 self.places[place] = (("x", symbol, place), 0)
         self.ranges.pop(symbol, None)
+        self.ranges.pop(("l", symbol), None)
         self.made.pop(symbol, None)
-        for other in [key for key, how in self.made.items() if any(
-                isinstance(part, tuple) and part[0] == symbol for part in how)]:
+        for other in [key for key, how in self.made.items() if mentions(how, symbol)]:
             del self.made[other]
         if mentions(self.flags, symbol):
             self.flags = None
@@ -110,9 +132,14 @@ class State:
         if symbol is None:
             return offset, offset
         low, high = self.limits(symbol)
-        if symbol not in self.ranges:
+        if symbol in self.ranges:
+            first, last = self.ranges[symbol]
+        elif symbol[0] == "l" and symbol[1] in self.ranges:
+            first, last = self.ranges[symbol[1]]
+            if first < low or last > high:
+                return low, high
+        else:
             return low, high
-        first, last = self.ranges[symbol]
         first, last = first + offset, last + offset
         return (first, last) if low <= first and last <= high else (low, high)
 
@@ -130,6 +157,9 @@ class State:
                 new = max(old[0], first - offset), min(old[1], last - offset)
                 if new[0] <= new[1]:
                     self.ranges[symbol] = new
+                    whole = self.ranges.get(symbol[1]) if symbol[0] == "l" else None
+                    if whole and low <= whole[0] and whole[1] <= high:
+                        self.ranges[symbol[1]] = new
         return True
 
     # Memory of the stack. ------------------------------------------------------------------------
