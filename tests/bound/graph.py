@@ -4,6 +4,7 @@
 import dataclasses
 
 from listing import Refusal
+from split import split_loops
 
 
 @dataclasses.dataclass
@@ -15,6 +16,10 @@ class Block:
     predecessors: list = dataclasses.field(default_factory=list)
     calls: list = dataclasses.field(default_factory=list)  # (address, entry, or None through a pointer)
     leaves: bool = False  # the function may end here
+
+    @property
+    def first(self):
+        return self.instructions[0]
 
     @property
     def last(self):
@@ -40,6 +45,7 @@ class Graph:
         self.image, self.machine, self.entry = image, machine, entry
         self.blocks = {}
         self.find_blocks()
+        split_loops(self)
         self.order_blocks()
         self.find_dominators()
         self.find_loops()
@@ -197,4 +203,6 @@ class Graph:
                 self.innermost[at] = loop
 
     def back_edges(self):
-        return [(latch, loop) for loop in self.loops.values() for latch in loop.latches]
+        """By addresses: a copy of a block is the block."""
+        return {(self.blocks[latch].last.address, self.blocks[header].first.address)
+                for header, loop in self.loops.items() for latch in loop.latches}

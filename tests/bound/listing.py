@@ -43,7 +43,7 @@ def instructions_of(text):
         args, target = (match[4] or "").strip(), None
         if beside := BESIDE.search(args):
             args = args[: beside.start()].strip()
-            if word := re.match(r"(?:0x)?([0-9a-f]+) <", beside[1]):
+            if word := re.search(r"\b([0-9a-f]+) <[^<>]*>?[^<>]*$", beside[1]):
                 target = int(word[1], 16)
         if word := ADDRESS.match(args):
             target = int(word[1], 16)

@@ -26,7 +26,7 @@ class Table:
         places = set()
         for graph in graphs:
             for loop in graph.loops.values():
-                places.add(loop.header)
+                places.add(graph.blocks[loop.header].first.address)
                 places |= {graph.blocks[latch].last.address for latch in loop.latches}
         self.lines = image.lines_of(sorted(places))
 
@@ -40,7 +40,8 @@ class Table:
     def frames(self, graph, loop):
         """(function, file, line, text) of what the loop's ends and its head come of, the innermost first."""
         found = []
-        for at in [*(graph.blocks[latch].last.address for latch in loop.latches), loop.header]:
+        for at in [*(graph.blocks[latch].last.address for latch in loop.latches),
+                   graph.blocks[loop.header].first.address]:
             for name, file, line in self.lines.get(at, ()):
                 lines = self.source(file) if line else []
                 text = " ".join(part.strip() for part in lines[line - 1 : line + 1]) if line <= len(lines) else ""

@@ -123,7 +123,7 @@ class Turns:
         if symbol[0] == "p":
             return symbol[1] not in loop.blocks
         return symbol[0] == "d" and not any(
-            block.start <= symbol[1] <= block.last.address for block in
+            block.first.address <= symbol[1] <= block.last.address for block in
             (self.graph.blocks[at] for at in loop.blocks))
 
     def part(self, loop, value):
