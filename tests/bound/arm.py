@@ -284,8 +284,11 @@ class Arm:
             old = state.get(target)
             value = (None, old[1] & 0xFFFF | number(rest[0]) << 16) if old[0] is None else None
         elif base == "adr" or (base in ("add", "addw", "sub", "subw") and rest[0] == "pc"):
-            if instruction.target is not None:
-                value = (None, instruction.target)
+            value = (None, instruction.target)
+            if instruction.target is None:
+                ahead = where + 8 if self.image.marked(where) == "a" else where + 4 & ~3
+                by = number(rest[-1])
+                value = (None, ahead - by if base.startswith("sub") else ahead + by)
         if value is None and base in ("add", "addw", "sub", "subw", "rsb"):
             value, span, made, minus = self.sum(state, base, target, rest)
             if flags and minus is not None:

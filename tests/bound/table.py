@@ -37,12 +37,22 @@ class Table:
         except OSError:
             return []
 
+    @functools.lru_cache(maxsize=None)
+    def whole(self, file):
+        """The compiler names the files of the tree from its root on, which addr2line puts where it was built."""
+        parts = pathlib.Path(file).parts
+        for n in range(1, len(parts)):
+            if (self.root / pathlib.Path(*parts[n:])).is_file():
+                return str(self.root / pathlib.Path(*parts[n:]))
+        return file
+
     def frames(self, graph, loop):
         """(function, file, line, text) of what the loop's ends and its head come of, the innermost first."""
         found = []
         for at in [*(graph.blocks[latch].last.address for latch in loop.latches),
                    graph.blocks[loop.header].first.address]:
             for name, file, line in self.lines.get(at, ()):
+                file = self.whole(file)
                 lines = self.source(file) if line else []
                 text = " ".join(part.strip() for part in lines[line - 1 : line + 1]) if line <= len(lines) else ""
                 if file.startswith(f"{self.root}/"):
