@@ -58,7 +58,7 @@ class Facts:
         groups = {}
         for fact in facts:
             ones = [program.of(at, (), every - {at}) for at in fact.entries if at not in outer]
-            if not ones:
+            if not ones or fact.row["at_most"] == 0:
                 continue
             if any(one.open for one in ones):
                 raise Refusal(f"facts.toml: {fact.row['calls']}: has no bound by itself")

@@ -29,6 +29,7 @@ class Summary:
     calls: list = dataclasses.field(default_factory=list)  # (times, Summary) of the longest path
     below: list = dataclasses.field(default_factory=list)  # every Summary that it may call
     loops: list = dataclasses.field(default_factory=list)
+    vague: bool = False  # a count may follow from arguments
     open: set = dataclasses.field(default_factory=set)  # (entry, header) without a count, of those below too
 
 
@@ -86,7 +87,7 @@ class Program:
     def of(self, entry, known=(), cut=frozenset()):
         """`known`: ranges of its arguments; `cut`: functions whose instructions are counted elsewhere."""
         plain = self.once(entry, (), cut)
-        return plain if not plain.open or not known else self.once(entry, known, cut)
+        return plain if not (plain.open or plain.vague) or not known else self.once(entry, known, cut)
 
     def once(self, entry, known, cut):
         if (entry, known, cut) not in self.summaries:
@@ -119,8 +120,9 @@ class Program:
         for header, loop in graph.loops.items():
             row = self.table.row(graph, loop, proven.get(header))
             how = turns.how.get(header, "")
-            if row is not None and proven.get(header, row) >= row:
-                bodies[header], how = row, "a row"
+            if row is not None and proven.get(header, row["count"]) >= row["count"]:
+                bodies[header], how = row["count"], "a row"
+                found.vague = found.vague or row.get("by_arguments", False)
                 proven.pop(header, None)
             for latch in loop.latches:
                 found.loops.append(LoopFound(entry, header, latch, proven.get(header, bodies.get(header)), how))
@@ -130,6 +132,7 @@ class Program:
         found.below = list({id(one): one for ones in called.values() for _, one in ones}.values())
         for one in found.below:
             found.open |= one.open
+            found.vague = found.vague or one.vague
         found.stack = self.stack(graph, turns, called)
         if found.open:
             return found
@@ -166,7 +169,9 @@ class Program:
                     summaries = []
                     for to in self.targets(entry, ones[instruction.address], instruction.address):
                         one = self.of(to, known, cut - {to})
-                        summaries.append(dataclasses.replace(one, bound=0) if to in cut else one)
+                        if to in cut:
+                            one = dataclasses.replace(one, bound=0, open=set(), vague=False)
+                        summaries.append(one)
                     summaries.sort(key=lambda one: -one.bound)
                     cost[at] += summaries[0].bound
                     called.setdefault(at, []).append((instruction.address, summaries[0]))

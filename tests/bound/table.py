@@ -3,13 +3,16 @@
 
 A row says of which loops it is by two regular expressions: `function`, of the names as C++ writes them, and
 `line`, of file, number and text of the source where the loop goes round again. It holds only where no count was
-proven, or where it `tightens` one. `count` is how often the loop's end is reached at most.
+proven, or where it `tightens` one. `count` is how often the loop's end is reached at most. Where a row is
+`by_arguments`, the loop is looked at again for each call, as its count may follow from the arguments there.
 """
 
 import functools
 import pathlib
 import re
 import tomllib
+
+from listing import Refusal
 
 
 class Table:
@@ -19,16 +22,26 @@ class Table:
         if file is not None:
             with open(file, "rb") as stream:
                 self.rows = tomllib.load(stream).get("loop", [])
+        for row in self.rows:
+            if missing := {"function", "count", "keeps", "test"} - set(row):
+                raise Refusal(f"{file}: a row without {', '.join(sorted(missing))}")
         self.used = {}  # places by number of a row
         self.lines = {}  # [(function, file, line)] by address
 
     def prepare(self, image, graphs):
-        places = set()
-        for graph in graphs:
-            for loop in graph.loops.values():
-                places.add(graph.blocks[loop.header].first.address)
-                places |= {graph.blocks[latch].last.address for latch in loop.latches}
-        self.lines = image.lines_of(sorted(places))
+        self.lines = image.lines_of(sorted({at for graph in graphs for loop in graph.loops.values()
+                                            for at in self.tested(graph, loop)}))
+
+    @staticmethod
+    def tested(graph, loop):
+        """Addresses of the ends, of the tests that leave the loop, and of its head."""
+        found = [graph.blocks[latch].last.address for latch in loop.latches]
+        for at in sorted(loop.blocks, key=graph.rank.get):
+            block = graph.blocks[at]
+            if graph.innermost[at] is loop and (at in loop.latches or any(
+                    to not in loop.blocks for to, _, _ in block.successors)):
+                found += [one.address for one in block.instructions]
+        return [*found, graph.blocks[loop.header].first.address]
 
     @functools.lru_cache(maxsize=None)
     def source(self, file):
@@ -49,12 +62,11 @@ class Table:
     def frames(self, graph, loop):
         """(function, file, line, text) of what the loop's ends and its head come of, the innermost first."""
         found = []
-        for at in [*(graph.blocks[latch].last.address for latch in loop.latches),
-                   graph.blocks[loop.header].first.address]:
+        for at in self.tested(graph, loop):
             for name, file, line in self.lines.get(at, ()):
                 file = self.whole(file)
                 lines = self.source(file) if line else []
-                text = " ".join(part.strip() for part in lines[line - 1 : line + 1]) if line <= len(lines) else ""
+                text = "\n".join(part.strip() for part in lines[line - 1 : line + 1]) if line <= len(lines) else ""
                 if file.startswith(f"{self.root}/"):
                     file = file[len(f"{self.root}/"):]
                 frame = (name, file, line, text)
@@ -63,7 +75,7 @@ class Table:
         return found or [(graph.image.word(graph.entry), "", 0, "")]
 
     def row(self, graph, loop, proven):
-        """The count of the row that holds; None without one."""
+        """The row that holds; None without one."""
         if not self.rows:
             return None
         frames = self.frames(graph, loop)
@@ -77,11 +89,15 @@ class Table:
                                          for _, file, line, text in frames):
                 continue
             self.used.setdefault(n, set()).add(self.place(graph, loop))
-            return row["count"]
+            return row
         return None
 
     def place(self, graph, loop):
-        inside = [frame for frame in self.frames(graph, loop) if frame[3]]
-        name, file, line, text = inside[0] if inside else self.frames(graph, loop)[0]
+        """The line of the statement, where it is found; else of the loop's end."""
+        frames = self.frames(graph, loop)
+        said = [frame for frame in frames if re.search(r"\b(for|while) \(", frame[3].split("\n")[0])] or \
+            [frame for frame in frames if frame[3]] or frames
+        name, file, line, text = said[0]
         at = graph.blocks[loop.latches[0]].last.address
-        return f"{file or '?'}:{line} ({name or graph.image.word(graph.entry)}, {at:#x}): {text}"
+        return f"{file or '?'}:{line} ({name.split('(')[0] or graph.image.word(graph.entry)}, {at:#x}): " + \
+            text.split("\n")[0]

@@ -88,6 +88,7 @@ class Turns:
             for one, other, what in [found for a, b, true in tests(flags, condition)
                                      for found in state.implied(a, b, true)]:
                 for count, how in (
+                        (self.switched(loop, state, one, other, what), "a switch"),
                         (self.shrinking(loop, state, one, other, what), "a word that loses bits in each round"),
                         (self.counting(loop, state, one, other, what), "a counter")):
                     if count is not None and count >= 0:
@@ -275,6 +276,18 @@ class Turns:
         state, value = starts[0]
         base, more = half(value)
         return state, (base, offset + more, {**terms, header: step}, low, high, stride)
+
+    def switched(self, loop, state, a, b, condition):
+        """What is the same constant after each round decides the second one."""
+        if a[0] is None or a[0][:2] != ("p", loop.header) or b[0] is not None:
+            return None
+        for before, arrived in self.flow.arriving(loop.header, None):
+            if before in loop.blocks:
+                value = arrived.places.get(a[0][2])
+                if value is None or value[0] is not None or \
+                        state.exact(state.signed(value[1] + a[1]), b[1], condition):
+                    return None
+        return 1
 
     def shrinking(self, loop, state, a, b, condition):
         """x &= x - 1, x >>= n: until nothing is left."""
