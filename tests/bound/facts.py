@@ -39,6 +39,9 @@ class Facts:
                 raise Refusal(f"{file}: a fact without {', '.join(sorted(missing))}")
         self.used = set()
 
+    def assumed(self):
+        return sum(1 for n in self.used if self.rows[n]["proof"].startswith("assumed"))
+
     def within(self, program, entry):
         found = []
         word = program.image.word(entry)

@@ -23,13 +23,14 @@ class Flow:
         self.graph, self.machine = graph, machine
         self.turns = turns or {}
         self.known = known or {}
-        self.floor = None
-        # Where the stack pointer itself is not known, all of the stack may be written.
+        # Where pointers may write is found once: it follows from the function's own sums alone.
+        self.floor = getattr(graph, "floor", None)
         self.run()
-        floor = self.pointers()
-        if floor != self.floor:
-            self.floor = floor
-            self.run()
+        if not hasattr(graph, "floor"):
+            graph.floor = self.pointers() if graph.loops else None
+            if graph.floor != self.floor:
+                self.floor = graph.floor
+                self.run()
 
     def symbol_rank(self, symbol):
         if symbol[0] == "l":

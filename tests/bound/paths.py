@@ -24,9 +24,9 @@ def edges_of(graph, leaving):
     return edges
 
 
-def constraints(graph, edges, turns, bodies):
+def constraints(graph, edges, turns, bodies, calls):
     """([(factor by edge, "= 0")], edges into each block). `turns`: how often a loop goes round again at most,
-    by header; `bodies`: how often its ends are reached."""
+    by header; `bodies`: how often its ends are reached each time, and those of `calls` in all of a call."""
     into, out = {}, {}
     for n, (start, end) in enumerate(edges):
         out.setdefault(start, []).append(n)
@@ -39,7 +39,7 @@ def constraints(graph, edges, turns, bodies):
         again = [n for n in into.get(header, []) if edges[n][0] in loop.blocks]
         if header in bodies:
             ends = [n for latch in loop.latches for n in out.get(latch, [])]
-            rows.append((balance(ends, entering, bodies[header]), "<= 0"))
+            rows.append((balance(ends, [0] if header in calls else entering, bodies[header]), "<= 0"))
         if header in turns:
             rows.append((balance(again, entering, turns[header]), "<= 0"))
     return [row for row in rows if any(row[0].values())], into
@@ -59,12 +59,12 @@ def words(row):
     return "\n ".join(" ".join(parts[n:n + 12]) for n in range(0, len(parts), 12))
 
 
-def dearest(graph, leaving, turns, bodies, cost):
+def dearest(graph, leaving, turns, bodies, calls, cost):
     """(most, executions by block)"""
     edges = edges_of(graph, leaving)
     if not graph.loops and len(edges) == 2:
         return cost[graph.entry], {graph.entry: 1}
-    rows, into = constraints(graph, edges, turns, bodies)
+    rows, into = constraints(graph, edges, turns, bodies, calls)
     goal = {n: cost[at] for at, numbers in into.items() if at is not None for n in numbers}
     text = f"Maximize\n goal: {words(goal)}\nSubject To\n"
     text += "".join(f" c{n}: {words(row)} {end}\n" for n, (row, end) in enumerate(rows))

@@ -115,13 +115,15 @@ class Program:
         facts = self.facts.within(self, entry)
         cut = outer | {at for fact in facts for at in fact.entries}
         found = Summary(entry)
-        bodies = {}
+        bodies, calls = {}, {}
         proven = dict(turns.proven)
         for header, loop in graph.loops.items():
             row = self.table.row(graph, loop, proven.get(header))
             how = turns.how.get(header, "")
             if row is not None and proven.get(header, row["count"]) >= row["count"]:
                 bodies[header], how = row["count"], "a row"
+                if row.get("per_call"):
+                    calls[header] = bodies[header]
                 found.vague = found.vague or row.get("by_arguments", False)
                 proven.pop(header, None)
             for latch in loop.latches:
@@ -136,7 +138,7 @@ class Program:
         found.stack = self.stack(graph, turns, called)
         if found.open:
             return found
-        found.bound, times = dearest(graph, turns.flow.leaving, proven, bodies, cost)
+        found.bound, times = dearest(graph, turns.flow.leaving, proven, bodies, calls, cost)
         found.own = sum(len(graph.blocks[at].instructions) * n for at, n in times.items())
         for at, ones in called.items():
             if times.get(at):

@@ -3,8 +3,8 @@
 
 A row says of which loops it is by two regular expressions: `function`, of the names as C++ writes them, and
 `line`, of file, number and text of the source where the loop goes round again. It holds only where no count was
-proven, or where it `tightens` one. `count` is how often the loop's end is reached at most. Where a row is
-`by_arguments`, the loop is looked at again for each call, as its count may follow from the arguments there.
+proven, or where it `tightens` one. Of a row of `constants` the line's first group names the one. `count` is how often the loop's end is reached at most. Where a row is
+`per_call`, the count is that of all rounds in one call of the function. Where it is `by_arguments`, the loop is looked at again for each call, as its count may follow from the arguments there.
 """
 
 import functools
@@ -23,6 +23,8 @@ class Table:
             with open(file, "rb") as stream:
                 self.rows = tomllib.load(stream).get("loop", [])
         for row in self.rows:
+            if "constants" in row:
+                row["count"] = max(row["constants"].values())
             if missing := {"function", "count", "keeps", "test"} - set(row):
                 raise Refusal(f"{file}: a row without {', '.join(sorted(missing))}")
         self.used = {}  # places by number of a row
@@ -88,6 +90,12 @@ class Table:
             if "line" in row and not any(re.search(row["line"], f"{file}:{line}: {text}")
                                          for _, file, line, text in frames):
                 continue
+            if "constants" in row:
+                named = [found[1] for _, file, line, text in frames
+                         if (found := re.search(row["line"], f"{file}:{line}: {text}"))]
+                if named[0] not in row["constants"]:
+                    continue
+                row = {**row, "count": row["constants"][named[0]]}
             self.used.setdefault(n, set()).add(self.place(graph, loop))
             return row
         return None
