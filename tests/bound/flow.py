@@ -251,6 +251,8 @@ class Flow:
 
     def through(self, at, state):
         block = self.graph.blocks[at]
+        # Once only: nothing older has its symbol. A copy of a block may come after the block.
+        state.again = at in self.graph.innermost or self.graph.copied
         for instruction in block.instructions:
             self.step(state, instruction)
         out = []

@@ -45,7 +45,9 @@ class Graph:
         self.image, self.machine, self.entry = image, machine, entry
         self.blocks = {}
         self.find_blocks()
+        before = len(self.blocks)
         split_loops(self)
+        self.copied = len(self.blocks) > before
         self.order_blocks()
         self.find_dominators()
         self.find_loops()

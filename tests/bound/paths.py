@@ -62,8 +62,8 @@ def words(row):
 def dearest(graph, leaving, turns, bodies, calls, cost):
     """(most, executions by block)"""
     edges = edges_of(graph, leaving)
-    if not graph.loops and len(edges) == 2:
-        return cost[graph.entry], {graph.entry: 1}
+    if not graph.loops:
+        return longest(graph, edges, cost)
     rows, into = constraints(graph, edges, turns, bodies, calls)
     goal = {n: cost[at] for at, numbers in into.items() if at is not None for n in numbers}
     text = f"Maximize\n goal: {words(goal)}\nSubject To\n"
@@ -72,6 +72,24 @@ def dearest(graph, leaving, turns, bodies, calls, cost):
     counts, most = solve(text, graph)
     times = {at: sum(counts.get(n, 0) for n in numbers) for at, numbers in into.items() if at is not None}
     return most, times
+
+
+def longest(graph, edges, cost):
+    """Without loops no program is needed."""
+    after = {}
+    for start, end in edges:
+        after.setdefault(start, []).append(end)
+    most = {None: (0, None)}
+    for at in reversed(graph.order):
+        if at in after:
+            best = max(after[at], key=lambda to: most[to][0] if to in most else -1)
+            most[at] = (cost[at] + most[best][0], best) if best in most else (cost[at], None)
+        else:
+            most[at] = (cost[at], None)
+    times, at = {}, graph.entry
+    while at is not None:
+        times[at], at = 1, most[at][1]
+    return most[graph.entry][0], times
 
 
 def solve(text, graph):

@@ -59,18 +59,19 @@ class State:
     """`places` has (symbol, offset) by place: a register's name, or ("s", bytes above the stack pointer at
     the function's entry, size)."""
 
-    __slots__ = ("places", "ranges", "flags", "made", "bits", "floor")
+    __slots__ = ("places", "ranges", "flags", "made", "bits", "floor", "again")
 
     def __init__(self, bits, floor):
         self.places, self.ranges, self.made = {}, {}, {}
         self.flags = None  # see tests()
         self.bits = bits
+        self.again = True  # what is done here may be done once more
         self.floor = floor  # what lies from here up in the stack may be written through pointers
 
     def copy(self):
         other = State(self.bits, self.floor)
         other.places, other.ranges = dict(self.places), dict(self.ranges)
-        other.made, other.flags = dict(self.made), self.flags
+        other.made, other.flags, other.again = dict(self.made), self.flags, self.again
         return other
 
     def width(self, place):
@@ -102,7 +103,8 @@ class State:
     def fresh(self, place, where, low=None, high=None, made=None):
         """Something new, which this instruction makes."""
         symbol = ("d", where, place)
-        self.forget(symbol)
+        if self.again:
+            self.forget(symbol)
         if low is not None:
             if low == high:
                 self.put(place, (None, low))
