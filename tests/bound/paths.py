@@ -26,7 +26,7 @@ def edges_of(graph, leaving):
 
 def constraints(graph, edges, turns, bodies, calls):
     """([(factor by edge, "= 0")], edges into each block). `turns`: how often a loop goes round again at most,
-    by header; `bodies`: how often its ends are reached each time, and those of `calls` in all of a call."""
+    by header; `bodies`: how often its ends are reached each time; `calls`: how often those of several loops are in all of a call."""
     into, out = {}, {}
     for n, (start, end) in enumerate(edges):
         out.setdefault(start, []).append(n)
@@ -39,9 +39,12 @@ def constraints(graph, edges, turns, bodies, calls):
         again = [n for n in into.get(header, []) if edges[n][0] in loop.blocks]
         if header in bodies:
             ends = [n for latch in loop.latches for n in out.get(latch, [])]
-            rows.append((balance(ends, [0] if header in calls else entering, bodies[header]), "<= 0"))
+            rows.append((balance(ends, entering, bodies[header]), "<= 0"))
         if header in turns:
             rows.append((balance(again, entering, turns[header]), "<= 0"))
+    for (_, count), headers in calls.items():
+        ends = [n for header in headers for latch in graph.loops[header].latches for n in out.get(latch, [])]
+        rows.append((balance(ends, [0], count), "<= 0"))
     return [row for row in rows if any(row[0].values())], into
 
 

@@ -123,7 +123,7 @@ class Program:
             if row is not None and proven.get(header, row["count"]) >= row["count"]:
                 bodies[header], how = row["count"], "a row"
                 if row.get("per_call"):
-                    calls[header] = bodies[header]
+                    calls.setdefault((row["place"], row["count"]), []).append(header)
                 found.vague = found.vague or row.get("by_arguments", False)
                 proven.pop(header, None)
             for latch in loop.latches:

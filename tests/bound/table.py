@@ -3,8 +3,10 @@
 
 A row says of which loops it is by two regular expressions: `function`, of the names as C++ writes them, and
 `line`, of file, number and text of the source where the loop goes round again. It holds only where no count was
-proven, or where it `tightens` one. Of a row of `constants` the line's first group names the one. `count` is how often the loop's end is reached at most. Where a row is
-`per_call`, the count is that of all rounds in one call of the function. Where it is `by_arguments`, the loop is looked at again for each call, as its count may follow from the arguments there.
+proven, or where it `tightens` one. `count` is how often the loop's end is reached at most; of a row of
+`constants` the line's first group names the one that it is. Where a row is `per_call`, the count is that of all
+rounds in one call of the function, of whatever the compiler has made of the statement. Where it is
+`by_arguments`, the loop is looked at again for each call, as its count may follow from the arguments there.
 """
 
 import functools
@@ -97,7 +99,9 @@ class Table:
                     continue
                 row = {**row, "count": row["constants"][named[0]]}
             self.used.setdefault(n, set()).add(self.place(graph, loop))
-            return row
+            said = next((frame[1:3] for frame in frames if re.search(
+                row.get("line", "."), f"{frame[1]}:{frame[2]}: {frame[3]}")), None)
+            return {**row, "place": (n, said)}
         return None
 
     def place(self, graph, loop):
