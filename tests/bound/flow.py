@@ -272,8 +272,11 @@ class Flow:
 
     def step(self, state, instruction):
         word = self.machine.word(instruction)
-        if word.condition is None or word.kind != "next" and word.base != "bl":
+        if word.condition is None:
             self.machine.execute(state, instruction)
+            return
+        if word.kind not in ("next", "call", "call_pointer"):
+            # What goes on here has not left.
             return
         # Done or left out.
         yes, no = (state.given(word.condition, self.symbol_rank),

@@ -75,6 +75,9 @@ class Program:
             state = state.copy()
             for instruction in block.instructions:
                 turns.flow.step(state, instruction)
+            word = self.machine.word(block.last)
+            if word.condition is not None and word.kind == "return":
+                self.machine.execute(state, block.last)
             kept = {register for register in kept if state.places[register] == (("e", register), 0)}
             for _, target in block.calls:
                 # Last of all it may go on in another.
