@@ -76,6 +76,8 @@ graben_missing() {
       echo libstdc++-arm-none-eabi-newlib
     has_command qemu-aarch64 || echo qemu-user
     has_command qemu-system-arm || echo qemu-system-arm
+    # The longest path of an image.
+    has_command glpsol || echo glpk-utils
     # CMocka's source for what has no package of it.
     has_command xz || echo xz-utils
   fi
