@@ -140,6 +140,7 @@ class FaultyReading {
 struct NodeFaults {
   bool wrong_identity = false;  ///< The machine names another profile.
   double engine_ratio = 1.0;    ///< Of the engine's speed; 0: it stands.
+  ReadingFault engine_speed;    ///< As EEC1 shows it, rad/s.
   /// EEC1 comes for so long, then not for so long, and so on; 0: all the time.
   TimeUs engine_speed_turns_us = 0;
   bool loses_spool_commands = false;  ///< SpoolCommand does not reach the valve side.

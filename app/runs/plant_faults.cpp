@@ -75,6 +75,7 @@ void add_pressure(const std::string& name, const Find& find, PlantFaultTable<Exc
 template <class Faults>
 PlantFaultTable<Faults> common() {
   return {{"engine:runs", [](Faults& faults, double value) { faults.engine_ratio = value; }},
+          {"engine-speed:frozen", [](Faults& faults, double) { faults.engine_speed.stuck = true; }},
           {"engine-speed:by-turns", [](Faults& faults, double value) {
              faults.engine_speed_turns_us = static_cast<TimeUs>(std::llround(value * 1e6));
            }}};
@@ -182,6 +183,10 @@ PlantFaultTable<Dozer> make_dozer() {
       fault->stuck = true;
     }
   };
+  table["pose:later"] = [](Dozer& faults, double value) { faults.pose.later_ps = value; };
+  table["pumps:stay"] = [](Dozer& faults, double) { faults.pumps_stay = true; };
+  table["pump-feedback:echoes"] = [](Dozer& faults, double) { faults.pump_feedback_echoes = true; };
+  table["pump-feedback:frozen"] = [](Dozer& faults, double) { faults.pump_feedback_stuck = true; };
   for (unsigned i = 0; i < kTrackCount; ++i) {
     add_sensor(
         fmt::format("{}-track-speed", kTracks[i]),
