@@ -44,6 +44,7 @@ bool watch_supplies(DriveRows drives, Span<const ValidDrive> seen, Span<const do
                     bool held, double period_s, SuppliesState& state) {
   bool starved = false;
   bool stand = !held;
+  int asked = 0;
   double behind_mps = 0.0;
   double answers_s = 0.0;
   for (int i = 0; i < drives.count(); ++i) {
@@ -52,13 +53,15 @@ bool watch_supplies(DriveRows drives, Span<const ValidDrive> seen, Span<const do
     const double most_mps = std::abs(drive.asked_mps);
     if (most_mps > kSupplyLeastAsked_mps) {
       const double along_mps = std::copysign(1.0, drive.asked_mps) * drive.speed_mps;
+      ++asked;
       stand = stand && along_mps < kSupplyStandsShare * most_mps;
       behind_mps = std::max(behind_mps, most_mps - along_mps);
       const SpoolAnswer& answer = drives[i].answer.towards(drive.asked_mps);
       answers_s = std::max(answers_s, answer.dead_time_s + answer.lag_s);
     }
   }
-  if (!stand || !(behind_mps > 0.0)) {
+  // One alone may have a sensor that stands.
+  if (!stand || asked < 2 || !(behind_mps > 0.0)) {
     state.unmoved_m = 0.0;
     state.stood_s = 0.0;
     return starved;
