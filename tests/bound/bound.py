@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How many instructions a step costs at most, by proof, from a linked image.
+"""How many instructions a step costs at most, from a linked image and the counts of loops.toml.
 
     bound.py --tools PREFIX --root REGEX IMAGE    refuses what has no bound, else prints it
     bound.py ... --loops                          prints every loop with its count and why

@@ -39,8 +39,9 @@ void correct(const ExcavatorModel& machine, const OilGains& gains, const Estimat
   }
   const Eigen::Vector2d correction_mps =
       oil_correction_mps(gains, estimates.modes, estimates.oil, off_m);
-  // The oil swings as fast on a slow path; the operator's word still bounds what is asked of it. Its
-  // fourth root: the square root leaves 10 mm at a tenth of the speed, all of it errs more in soil.
+  // The oil swings as fast on a slow path; the operator's word still bounds what is asked of it.
+  // Its fourth root: the square root leaves 10 mm at a tenth of the speed, all of it errs more in
+  // soil.
   const double authority = std::sqrt(std::sqrt(speed_override_ratio));
   const double known_most_mps = kOilKnownFlow_mps * speed_override_ratio;
   for (int axis = 0; axis < 2; ++axis) {
