@@ -28,7 +28,7 @@ struct LoaderProfile {
                                {0, 2.4e-4, 2.0e-4, 2.0e-4, 2.4e-4, 3.0e-6, 6.0e-8}}};
   double arm_m = 2.5;     ///< Along the arm's x.
   double bucket_m = 1.0;  ///< From the bucket's joint to its edge, along its -y.
-  PumpProfile pump = {45e-6, 209.4, 2e-12, 0.0, 21e6, {5.8e-6, 5.1e-6}};
+  PumpProfile pump = {45e-6, 209.4, 2e-12, 0.0, 21e6, {5.8e-6, 5.1e-6}, {}};
   SpoolMetering metering = {0.008, 1.5, 0.62, 870.0};
   double deadband_ratio = 0.2;                  ///< Of the spools' travel.
   Eigen::Vector2d cut_from_m = {2.745, -0.46};  ///< The edge's path: a straight cut.
