@@ -74,16 +74,23 @@ class ExcavatorOff {
       return std::abs(heard_rad_ - swing_bias_rad_ - rig_.plant.plant().swing_rad());
     }
     const ExcavatorKinematics kinematics(rig_.machine.profile.geometry);
-    Eigen::Vector3d shown_m = heard_m_ - bias_m_;
-    for (unsigned i = 0; i < kAxisCount; ++i) {
-      shown_m[i] = std::clamp(shown_m[i], 0.0, rig_.machine.profile.geometry.cylinder[i].stroke_m);
+    const KinematicState shown = kinematics.state(within_m(heard_m_ - bias_m_));
+    const KinematicState is = kinematics.state(within_m(true_m()));
+    if (shown.status != ReachStatus::kOk || is.status != ReachStatus::kOk) {
+      throw std::logic_error("strokes within their cylinders have no pose");
     }
-    const TipPose shown = kinematics.state(shown_m).tip;
-    const TipPose is = kinematics.state(true_m()).tip;
-    return std::hypot(shown.x_m - is.x_m, shown.y_m - is.y_m);
+    return std::hypot(shown.tip.x_m - is.tip.x_m, shown.tip.y_m - is.tip.y_m);
   }
 
  private:
+  /// A cylinder on its stop is pressed a little beyond it, where the linkage has no pose.
+  [[nodiscard]] Eigen::Vector3d within_m(Eigen::Vector3d strokes_m) const {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+      strokes_m[i] =
+          std::clamp(strokes_m[i], 0.0, rig_.machine.profile.geometry.cylinder[i].stroke_m);
+    }
+    return strokes_m;
+  }
   [[nodiscard]] Eigen::Vector3d true_m() const {
     const auto strokes_m = rig_.plant.plant().strokes_m();
     return {strokes_m[0], strokes_m[1], strokes_m[2]};
