@@ -24,10 +24,15 @@ constexpr double kDriftOff_m = 0.40;
 /// From the stop on, until oil and linkage have come to rest.
 constexpr TimeUs kStands_us = 400 * kMillisecondUs;
 
+/// A cylinder on its stop is pressed a little beyond it, where the linkage has no pose.
 Eigen::Vector2d tool_m(const Rig<Excavator>& rig, const std::array<double, 3>& strokes_m) {
-  const ExcavatorKinematics kinematics(rig.machine.profile.geometry);
-  const KinematicState state = kinematics.state({strokes_m[0], strokes_m[1], strokes_m[2]});
-  return {state.tip.x_m, state.tip.y_m};
+  const ExcavatorGeometry& geometry = rig.machine.profile.geometry;
+  Eigen::Vector3d within_m;
+  for (unsigned i = 0; i < 3; ++i) {
+    within_m[i] = std::clamp(strokes_m[i], 0.0, geometry.cylinder[i].stroke_m);
+  }
+  const TipPose tip = ExcavatorKinematics(geometry).state(within_m).tip;
+  return {tip.x_m, tip.y_m};
 }
 
 Eigen::Vector2d tool_m(const Rig<Dozer>& rig, const std::array<double, 1>& strokes_m) {
