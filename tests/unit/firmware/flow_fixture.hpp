@@ -13,7 +13,7 @@ inline constexpr double kPeriod_s = 0.01;
 inline constexpr double kEngine_radps = 100.0;
 inline constexpr double kEdge = 0.2;
 inline constexpr double kZero_pa = 1.2e6;
-inline constexpr double kLost_pa = kZero_pa + 0.2e6;  ///< And to the return line.
+inline constexpr double kLost_pa = kZero_pa + 0.5e6;  ///< And to the return line.
 
 /// Flow is area times sqrt(pressure) times opening; the cap side is twice as large as the rod side.
 inline DriveRow plain() {

@@ -367,6 +367,8 @@ TEST(a_spool_told_by_its_pilot_comes_later) {
 /// What is not learnt yet is left room for.
 TEST(a_valve_that_is_not_learnt_is_given_more_time, Watched known) {
   Watched fresh;
+  known.seen.spool_ratio = 0.3;
+  fresh.seen.spool_ratio = 0.3;
   fresh.valve = LearntValve{};
   const int sooner = known.until(Fault::kStrokeStuck, 0.0);
   const int later = fresh.until(Fault::kStrokeStuck, 0.0);
