@@ -171,7 +171,7 @@ LieOutcome run(const LieCase& lie, const typename Kind::Scenery& scenery, Task t
 }  // namespace
 
 const std::vector<std::string>& machines() {
-  static const std::vector<std::string> names = {"22t", "12t", "retrofit", "dozer"};
+  static const std::vector<std::string> names = {"22t", "12t", "retrofit", "zx200", "dozer"};
   return names;
 }
 

@@ -51,7 +51,7 @@ int main(int count, char** words) {
   std::uint64_t seeds = 20;
   std::uint64_t first = 1;
   bool each = false;
-  app.add_option("--machine", lie.machine, "22t, 12t, retrofit or dozer")
+  app.add_option("--machine", lie.machine, "whose: 22t with another bus are retrofit and zx200")
       ->required()
       ->check(CLI::IsMember(graben::lies::machines()));
   app.add_option("--fault", lie.faults, "NAME or NAME=VALUE, as `graben plant --fault` has them");
