@@ -147,6 +147,57 @@ TEST(a_stuck_sensor_contradicts, Body body) {
   assert_in_range(cycles, 20, 300);
 }
 
+/// Of a sensor at `at_m` from its pin, as its own gyro has it.
+Eigen::Vector2d by_gyro(const Eigen::Vector2d& at_m, const LinkAngle& state) {
+  const Eigen::Vector2d arm = turned(at_m.x(), at_m.y(), state.then.angle_rad);
+  return state.then.acceleration_radps2 * Eigen::Vector2d(-arm.y(), arm.x()) -
+         state.then.rate_radps * state.then.rate_radps * arm;
+}
+
+/// From 2 s on its gyro is off by that much, the sensor as it is told 2 m from its pin or nearer.
+/// Time from there until it has contradicted its force; 1000 s: not within `most_s`.
+double seen_after_s(Body body, double off_radps, double most_s, const AngleNoise& noise = kNoise,
+                    double lever_m = 2.0) {
+  LinkAngle state;
+  begin_angle(noise, body.reading(0.0), state);
+  for (int i = 1; i * kPeriod_s < 2.0 + most_s; ++i) {
+    const double t = i * kPeriod_s;
+    body.bias_radps = t < 2.0 ? 0.0 : off_radps;
+    carry_angle(noise, body.reading(t), false, state);
+    if (state.runs()) {
+      const Eigen::Vector2d acceleration = by_gyro({2.0, 0.0}, state);
+      watch_gyro(noise, {lever_m, 0.0}, acceleration, state);
+      correct_angle(noise, acceleration, state);
+    }
+    if (state.contradicts()) {
+      return t - 2.0;
+    }
+  }
+  return 1000.0;
+}
+
+TEST(a_gyro_that_jumps_contradicts, Body body) {
+  body.noise = 1.0;
+  for (const double swing_rad : {0.0, 0.3}) {
+    body.swing_rad = swing_rad;
+    assert_true(seen_after_s(body, 0.0, 60.0) > 60.0);
+    for (const double side : {1.0, -1.0}) {
+      assert_true(seen_after_s(body, 0.07 * side, 1.0) < 0.10);
+      // Too near to its pin, its force tells nothing of it so soon.
+      assert_true(seen_after_s(body, 0.07 * side, 0.3, kNoise, 0.99) > 0.3);
+      // So little may be anything.
+      assert_true(seen_after_s(body, 0.02 * side, 0.3) > 0.3);
+    }
+  }
+}
+
+/// Where the force is noisier, more of it is.
+TEST(a_noisy_force_tells_less, Body body) {
+  const AngleNoise noisy = {kNoise.rate_radps, kNoise.bias_radps, 2.0};
+  assert_true(seen_after_s(body, 0.07, 0.3, noisy) > 0.3);
+  assert_true(seen_after_s(body, 0.3, 0.3, noisy) < 0.10);
+}
+
 TEST(blows_are_no_tilt, Body body) {
   LinkAngle state;
   begin_angle(kNoise, body.reading(0.0), state);
