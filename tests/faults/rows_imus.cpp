@@ -222,7 +222,7 @@ void gyro_jumps(Trial<Excavator>& trial) {
   trial.outcome.to_detection_us = rig.at_us() - since_us;
   trial.check(!rig.outputs().enable, "not neutral in that cycle");
   trial.outcome.harm = most_m;
-  trial.outcome.harm_unit = "m";
+  trial.outcome.harm_unit = axis == kBucket ? "m, bucket" : axis == kArm ? "m, arm" : "m, boom";
   trial.check(most_m <= (axis == kBucket ? kBucketGyroHarmMost_m : kGyroHarmMost_m),
               "the true tip is " + std::to_string(1e3 * most_m) + " mm further off the path");
   trial.saw("N L");

@@ -99,12 +99,13 @@ bool are_off(const TrackSpeeds& speeds, const DozerValid& valid,
          left_mps * right_mps > 0.0;
 }
 
-bool are_slower(const TrackSpeeds& speeds, const DozerValid& valid) {
+/// Or as fast, the other way.
+bool are_faster(const TrackSpeeds& speeds, const DozerValid& valid) {
   double more_mps = 0.0;
   for (unsigned i = 0; i < kTrackCount; ++i) {
     more_mps += std::abs(valid.track_speed_mps[i]) - std::abs(speeds.expected_mps[i]);
   }
-  return more_mps < 0.0;
+  return more_mps >= 0.0;
 }
 
 /// What stops, where tracks and body agree against (9). After watch_tracks().
@@ -112,15 +113,13 @@ void watch_both(const DozerProfile& profile, const DozerValid& valid, double per
                 TransmissionWatchState& state, FaultSet& stops) {
   const TrackSpeeds speeds = speeds_beside(profile, valid);
   const bool along = goes_along(speeds, valid);
-  const bool held = presses(profile, valid);
-  count(along && !held && stand(speeds, valid), period_s, state.stood_s);
+  count(along && !presses(profile, valid) && stand(speeds, valid), period_s, state.stood_s);
   if (state.stood_s > kTrackStands_s) {
     stops.add(Fault::kEngineDoubtful);
   }
-  if (along && are_off(speeds, valid, state)) {
-    const bool slower = are_slower(speeds, valid);
-    stops.add(slower && held ? Fault::kNone : Fault::kTracksAstray);
-    stops.add(slower ? Fault::kNone : Fault::kDisplacementRunaway);
+  if (along && are_off(speeds, valid, state) && are_faster(speeds, valid)) {
+    stops.add(Fault::kTracksAstray);
+    stops.add(Fault::kDisplacementRunaway);
   }
 }
 

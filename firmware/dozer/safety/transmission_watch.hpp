@@ -48,12 +48,12 @@ struct TransmissionWatchResult {
 /// that curves, where they are not, it has to be more.
 ///
 /// Where the body goes along with both tracks, it is what (9) is made of that lies, and that stops:
-/// kTracksAstray where both have been off (9) to the same side for so long that each disagrees,
-/// and kDisplacementRunaway with it where they are faster;
-/// kEngineDoubtful where both have stood for 0.3 s, at less than 0.3 of the speed of (9), above 0.1
-/// m/s. Slower than (9) is no lie while the lines press with more than the slope takes, by a
-/// twentieth of the weight: then it is a load that holds the tracks. A machine that does not tell
-/// its lines' pressures counts as not pressing.
+/// kTracksAstray, and kDisplacementRunaway with it, where both have been faster than (9) for so
+/// long that each disagrees: to be told to be slower does not reach them. Where they are slower,
+/// losses may be wrong, or a load holds them, and they only disagree. kEngineDoubtful where both
+/// have stood for 0.3 s, at less than 0.3 of the speed of (9), above 0.1 m/s, unless the lines
+/// press with more than the slope takes, by a twentieth of the weight: then a load holds them. A
+/// machine that does not tell its lines' pressures counts as not pressing.
 [[nodiscard]] TransmissionWatchResult watch_transmission(const DozerProfile& profile,
                                                          TransmissionWatchState& state,
                                                          const SentRatios& sent,
