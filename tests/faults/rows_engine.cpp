@@ -21,7 +21,7 @@ constexpr double kMostStart_m = 0.015;
 
 /// At a tenth of the speed an excavator may go on by its loads for as long as its engine stands,
 /// and after it: the task's way in kLooked_us (firmware/safety/README.md, what is not seen).
-constexpr double kMostGoesOn_m = 0.05;
+constexpr double kMostGoesOn_m = 0.06;
 constexpr bool goes_on_by_its_load(const Rig<Excavator>& /*rig*/) { return true; }
 constexpr bool goes_on_by_its_load(const Rig<Dozer>& /*rig*/) { return false; }
 
@@ -77,6 +77,10 @@ void engine_speed_frozen(Trial<Kind>& trial) {
               fmt::format("its start moved it by {:.0f} mm", 1e3 * trial.outcome.harm));
   trial.saw("N L");
   faults.engine_speed = {};
+  if (!stopped) {
+    rig.ask(false, Task::kNone);
+    rig.run(kSecondUs);  // It comes to rest.
+  }
   trial.expect_arms_again();
 }
 
