@@ -61,7 +61,7 @@ bool watch_supplies(DriveRows drives, Span<const ValidDrive> seen, Span<const do
     }
   }
   // One alone may have a sensor that stands.
-  if (!stand || asked < 2 || !(behind_mps > 0.0)) {
+  if (!stand || asked < 2) {
     state.unmoved_m = 0.0;
     state.stood_s = 0.0;
     return starved;

@@ -28,6 +28,15 @@ TEST(levers_that_stay_the_same_are_seen) {
   }
 }
 
+TEST(its_time_itself_is_well, LeverWatch watch) {
+  const Levers levers = {0.4, 0.0, 0.0, 0.0};
+  assert_false(levers_stand_still(0.125, true, levers, 0.0625, watch));
+  assert_false(levers_stand_still(0.125, true, levers, 0.125, watch));
+  assert_true(levers_stand_still(0.125, true, levers, 0.0625, watch));
+  // Less than no time is no promise.
+  assert_false(levers_stand_still(-0.125, true, {}, 0.0625, watch));
+}
+
 /// One that moves shows that all are read; frames come every second cycle.
 TEST(one_that_changes_is_enough) {
   LeverWatch watch;

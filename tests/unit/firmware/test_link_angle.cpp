@@ -258,7 +258,7 @@ TEST(its_bounds_are_no_contradiction, LinkAngle state) {
 
 /// What was known of its bias stays; what was not is what its noise says.
 TEST(a_beginning_keeps_the_bias) {
-  for (const double known : {0.0, 4.0}) {
+  for (const double known : {-1.0, 0.0, 4.0}) {
     LinkAngle state;
     state.bias_radps = 0.25;
     state.bias_variance = known;
@@ -274,13 +274,12 @@ TEST(the_least_force_has_no_direction) {
   assert_int_equal(begun.readings, 0);
   begin_angle(kNoise, shown(0.0, std::nextafter(kAngleLeastForce_mps2, 9.0)), begun);
   assert_int_equal(begun.readings, 1);
-  for (const bool more : {false, true}) {
+  for (const double force_mps2 : {0.5 * kAngleLeastForce_mps2, kAngleLeastForce_mps2, kGravity}) {
     LinkAngle state;
     state.angle_variance = 1.0;
-    state.then.force_mps2 = {
-        more ? std::nextafter(kAngleLeastForce_mps2, 9.0) : kAngleLeastForce_mps2, 0.0};
+    state.then.force_mps2 = {force_mps2, 0.0};
     correct_angle(kNoise, Eigen::Vector2d::Zero(), state);
-    assert_int_equal(state.angle_rad != 0.0, more);
+    assert_int_equal(state.angle_rad != 0.0, force_mps2 > kAngleLeastForce_mps2);
   }
 }
 

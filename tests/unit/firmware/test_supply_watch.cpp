@@ -97,7 +97,9 @@ TEST(each_sign_is_needed) {
     Drive unasked(way);
     unasked.asked_mps = way * kSupplyLeastAsked_mps;
     assert_false(unasked.is_seen());
-    unasked.asked_mps = std::nextafter(unasked.asked_mps, way);
+    unasked.asked_mps = way * 0.5 * kSupplyLeastAsked_mps;
+    assert_false(unasked.is_seen());
+    unasked.asked_mps = std::nextafter(way * kSupplyLeastAsked_mps, way);
     assert_true(unasked.is_seen());
   }
   Drive broken;
@@ -130,13 +132,30 @@ TEST(one_that_moves_is_well) {
   }
 }
 
+/// What does just a third of it does not stand.
+TEST(a_third_is_enough) {
+  for (const double way : {1.0, -1.0}) {
+    Drive drive(way);
+    const double third_mps = way * kSupplyStandsShare * 0.1;
+    drive.state.begun = true;
+    drive.state.speed_mps = third_mps;
+    drive.seen.stroke_m = third_mps;
+    assert_false(drive.step(1.0));
+    drive.state.speed_mps = drive.seen.stroke_m = std::nextafter(third_mps, 0.0);
+    drive.state.stroke_m = 0.0;
+    assert_true(drive.step(1.0));
+  }
+}
+
 TEST(a_cycle_of_no_length_changes_nothing, Drive drive) {
   drive.is_seen();
   const SupplyState before = drive.state;
   drive.seen.stroke_m = 0.7;
-  assert_false(drive.step(0.0));
-  assert_near(drive.state.stroke_m, before.stroke_m, 0.0);
-  assert_near(drive.state.starved_s, before.starved_s, 0.0);
+  for (const double period_s : {0.0, -0.1}) {
+    assert_false(drive.step(period_s));
+    assert_near(drive.state.stroke_m, before.stroke_m, 0.0);
+    assert_near(drive.state.starved_s, before.starved_s, 0.0);
+  }
 }
 
 /// Two drives of a machine, fed and asked for 0.1 m/s each, of which none moves.
@@ -199,6 +218,47 @@ TEST(pumps_that_feed_none_move_none, Drives drives) {
   assert_false(bound.step(0.0));
   assert_near(bound.state.unmoved_m, kSupplyUnmoved_m, 0.0);
   assert_true(bound.step(1e-9));
+  // Nor are drives that are not there looked at.
+  assert_false(bound.state.drive[2].begun);
+  bound.state.stood_s = kSupplyStarved_s;
+  assert_false(bound.step(0.0));
+  assert_true(bound.step(1e-9));
+}
+
+/// Three as well as two.
+TEST(all_that_are_asked_stand) {
+  const Drives two;
+  const std::array<DriveRow, 3> row = {two.row[0], two.row[1], two.row[0]};
+  const std::array<ValidDrive, 3> seen = {two.seen[0], two.seen[1], two.seen[0]};
+  const std::array<double, 3> asked_mps = {0.1, -0.1, 0.1};
+  SuppliesState state;
+  bool stands = false;
+  for (int n = 0; n < 100; ++n) {
+    stands = watch_supplies({row.data(), 3}, seen, asked_mps, false, 0.01, state);
+  }
+  assert_true(stands);
+}
+
+/// Asked, and at speeds that stay, for so long that standing would be seen.
+Drives at_their_bounds(double asked_mps, double share) {
+  Drives drives;
+  drives.asked_mps = {asked_mps, -asked_mps};
+  for (unsigned i = 0; i < 2; ++i) {
+    const double moves_mps = i == 0 ? share * asked_mps : 0.0;
+    drives.moves_mps[i] = moves_mps;
+    drives.seen[i].stroke_m = 0.0;
+    drives.state.drive[i] = {0.0, moves_mps, 0.0, drives.asked_mps[i], true};
+  }
+  drives.state.unmoved_m = drives.state.stood_s = 1.0;
+  return drives;
+}
+
+TEST(their_bounds_are_well) {
+  assert_true(at_their_bounds(0.1, 0.0).step(1.0));
+  assert_false(at_their_bounds(0.1, kSupplyStandsShare).step(1.0));
+  assert_false(at_their_bounds(kSupplyLeastAsked_mps, 0.0).step(1.0));
+  assert_false(at_their_bounds(0.5 * kSupplyLeastAsked_mps, 0.0).step(1.0));
+  assert_true(at_their_bounds(std::nextafter(kSupplyLeastAsked_mps, 1.0), 0.0).step(1.0));
 }
 
 TEST(one_that_goes_is_enough) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "firmware/dozer/safety/tuning.hpp"
 #include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -206,6 +207,11 @@ TEST(what_is_hardly_stroked_may_stand) {
     machine.sent.pump[track] = machine.valid.pump_ratio[track] = 0.05 + 1e-9;
     assert_true(engine_is_doubtful(machine, 0.4));
   }
+  Machine machine;
+  machine.drive(0.05);
+  machine.run_at(0.0);
+  assert_near(expected_mps(machine), kTrackStandsFrom_mps, 0.0);
+  assert_false(engine_is_doubtful(machine, 0.4));
 }
 
 /// By 0.1 m/s and 0.3 of a track's speed; below each track its own.
