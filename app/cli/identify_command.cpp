@@ -100,6 +100,12 @@ void add_log_options(CLI::App& command, IdentifyLogCommand& options) {
       .add_flag("--any-machine", options.any_machine,
                 "The logs may be of a machine with another profile")
       ->needs(log);
+  command
+      .add_flag(
+          "--strokes-measured", options.strokes_measured,
+          "What the stroke sensors show was measured with a tape: where the oil says otherwise, "
+          "the valve's areas are not the profile's")
+      ->needs(out);
   CLI::Option* check = command.add_flag(
       "--check", options.check,
       "Only compare: how far is what the profile predicts from what the logs show?");

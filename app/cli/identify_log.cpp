@@ -16,6 +16,7 @@
 #include "app/cli/output_file.hpp"
 #include "app/identify/file/identified_file.hpp"
 #include "app/identify/machine/log_checks.hpp"
+#include "app/identify/machine/stroke_scale.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "app/machines/profile_document.hpp"
 #include "app/reports/identify/identify_report.hpp"
@@ -168,6 +169,12 @@ void identify_logs(const IdentifyLogCommand& options) {
   fmt::print("{}", reports::prediction_table({{"old", &fit.before}, {"new", &fit.left_out}}));
   for (const std::string& missing : fit.machine.missing) {
     fmt::print("{}\n", missing);
+  }
+  for (const std::string& note : identify::scale_notes(fit.machine)) {
+    fmt::print("{}\n", note);
+  }
+  if (!options.strokes_measured) {
+    identify::assert_scales(fit.machine);
   }
   assert_better(fit);
   const std::string from = source_of(logs);

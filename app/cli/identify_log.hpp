@@ -17,6 +17,7 @@ struct IdentifyLogCommand {
   bool check = false;          ///< Judges the profile; writes none.
   double limit_percent = 0.0;  ///< Of `check`: largest difference of a speed; 0: none.
   bool any_machine = false;
+  bool strokes_measured = false;  ///< By a tape: what the sensors show is right.
   bool force = false;
 };
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/operate/command_frames.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/link/message_rules.hpp"
 
@@ -29,20 +32,30 @@ dbc::Payload command_payload(const Request& request, dbc::Count echo) {
   return command.encode();
 }
 
-dbc::Payload axes_payload(const Axes& axes) {
+/// A step of the message less, towards the middle and no further.
+double one_step_less(double ratio) {
+  return std::copysign(std::max(0.0, std::abs(ratio) - kLeverStep), ratio);
+}
+
+dbc::Payload axes_payload(const Axes& axes, bool less) {
+  const auto said = [less](double ratio) {
+    return dbc::Physical{less ? one_step_less(ratio) : ratio, kValid};
+  };
   Dbc::OperatorAxes message;
-  message.boom_or_up_ratio = {axes.boom_or_up_ratio, kValid};
-  message.arm_or_forward_ratio = {axes.arm_or_forward_ratio, kValid};
-  message.bucket_or_attitude_ratio = {axes.bucket_or_attitude_ratio, kValid};
-  message.swing_ratio = {axes.swing_ratio, kValid};
+  message.boom_or_up_ratio = said(axes.boom_or_up_ratio);
+  message.arm_or_forward_ratio = said(axes.arm_or_forward_ratio);
+  message.bucket_or_attitude_ratio = said(axes.bucket_or_attitude_ratio);
+  message.swing_ratio = said(axes.swing_ratio);
   return message.encode();
 }
 
 }  // namespace
 
 CommandPair CommandFrames::next(const Request& request, dbc::Count echo, TimeUs now) {
+  const bool less = less_;
+  less_ = !less_;
   return {next_frame(kCommandRule, command_, command_payload(request, echo), now),
-          next_frame(kAxesRule, axes_, axes_payload(request.axes), now)};
+          next_frame(kAxesRule, axes_, axes_payload(request.axes, less), now)};
 }
 
 CommandPair CommandFrames::last_words(TimeUs now) const {

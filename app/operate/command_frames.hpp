@@ -14,6 +14,9 @@
 
 namespace graben::operate {
 
+/// Step of OperatorAxes, of a lever's travel.
+inline constexpr double kLeverStep = 0.008;
+
 /// Both of a cycle: enable first.
 using CommandPair = std::array<CanFrame, 2>;
 
@@ -21,7 +24,9 @@ class CommandFrames {
  public:
   static constexpr TimeUs kPeriod_us = 20 * kMillisecondUs;
 
-  /// The next pair.
+  /// The next pair. In every second one each lever is told a step less, towards its middle: so
+  /// levers that are held still, by a stop or a key, show that they are still read
+  /// (safety.levers_alive).
   [[nodiscard]] CommandPair next(const Request& request, dbc::Count echo, TimeUs now);
   /// The pair that would be next and asks for nothing, for whoever has to send it in our place.
   [[nodiscard]] CommandPair last_words(TimeUs now) const;
@@ -29,6 +34,7 @@ class CommandFrames {
  private:
   SendState command_;
   SendState axes_;
+  bool less_ = false;  ///< In the next pair.
 };
 
 /// Says for 1 s that the tool is at the mark.

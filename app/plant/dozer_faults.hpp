@@ -24,6 +24,8 @@ struct PoseFaults {
   ReadingFault offset;  ///< On a design whose track curves, as the next.
   ReadingFault heading;
   ReadingFault yaw_rate;
+  /// All of them come that much later each second, s/s, from 0 on; 0 takes it back.
+  double later_ps = 0.0;
 
   [[nodiscard]] std::array<ReadingFault*, 11> all() {
     return {&position, &height,    &pitch,  &velocity, &climb,   &pitch_rate,
@@ -62,6 +64,10 @@ struct DozerFaults : NodeFaults {
   std::array<PathFaults, kTrackCount> path;
   /// PumpDisplacementCommand and MotorDisplacementCommand do not reach the machine.
   bool loses_displacement_commands = false;
+  /// Both pumps stay where they were told to be as this began; the brake obeys.
+  bool pumps_stay = false;
+  bool pump_feedback_echoes = false;  ///< It shows what the pumps are told.
+  bool pump_feedback_stuck = false;   ///< It shows what it showed as this began.
 };
 
 }  // namespace graben::plant

@@ -25,7 +25,7 @@ void DozerNode::step(TimeUs now) {
   brake_when_stopped(now);
   apply_faults();
   advance(now);
-  readings_.sense(plant_);
+  readings_.sense(plant_, faults_.pose.later_ps);
   send(readings_.stroke(plant_, faults_), now);
   send(readings_.position(faults_.pose), now);
   send(readings_.pitch(faults_.pose), now);
@@ -39,7 +39,7 @@ void DozerNode::step(TimeUs now) {
     send(readings_.course(faults_.pose), now);
   }
   if (is_due<bus::EEC1>()) {
-    send(bus::EEC1{valid(plant_.engine_radps())}, now);
+    send(bus::EEC1{shown_engine_radps()}, now);
   }
   if (is_due<bus::ValveState>(1)) {
     send_valve(now);
@@ -83,7 +83,10 @@ void DozerNode::apply_faults() {
     plant_.set_pump_fault(i, faults_.path[i].pump);
     plant_.set_motor_fault(i, faults_.path[i].motor);
   }
-  plant_.set_displacements(pump_ratio_, motor_ratio_);
+  if (!faults_.pumps_stay) {
+    obeyed_pump_ratio_ = pump_ratio_;
+  }
+  plant_.set_displacements(obeyed_pump_ratio_, motor_ratio_);
   plant_.set_engine_ratio(faults_.engine_ratio);
 }
 
@@ -165,12 +168,19 @@ template <class Message>
 Message DozerNode::path_state(std::size_t track) const {
   const PathFaults& faults = faults_.path[track];
   const auto pressure = plant_.path(track).pressures_pa();
-  return {valid(faults.shown_pump_ratio.value_or(plant_.pump_ratios()[track])),
+  return {valid(faults.shown_pump_ratio.value_or(shown_pump_ratio_[track])),
           valid(faults.shown_motor_ratio.value_or(plant_.motor_ratios()[track])),
           valid(std::max(pressure[0], pressure[1]))};
 }
 
+void DozerNode::show_pumps() {
+  if (!faults_.pump_feedback_stuck) {
+    shown_pump_ratio_ = faults_.pump_feedback_echoes ? pump_ratio_ : plant_.pump_ratios();
+  }
+}
+
 void DozerNode::send_transmission(TimeUs now) {
+  show_pumps();
   send(path_state<bus::LeftTransmission>(kLeft), now);
   send(path_state<bus::RightTransmission>(kRight), now);
 }

@@ -56,6 +56,7 @@ class DozerNode : public MachineNode<dbc::dozer::Dbc, DozerPlant, DozerFaults> {
   void send_valve(TimeUs now);
   template <class Message>
   [[nodiscard]] Message path_state(std::size_t track) const;
+  void show_pumps();
 
   DozerReadings readings_;
   CommandLink pump_link_;
@@ -65,6 +66,8 @@ class DozerNode : public MachineNode<dbc::dozer::Dbc, DozerPlant, DozerFaults> {
   TimeUs stopping_since_us_ = 0;
   double blade_duty_ = 0.0;  ///< That its valve is sent.
   DozerPlant::TrackArray pump_ratio_{};
+  DozerPlant::TrackArray obeyed_pump_ratio_{};  ///< By both pumps.
+  DozerPlant::TrackArray shown_pump_ratio_{};   ///< By their feedback.
   DozerPlant::TrackArray motor_ratio_ = {1.0, 1.0};
 };
 

@@ -15,6 +15,18 @@ double noisy(double value, double deviation, std::optional<Random>& noise) {
 
 }  // namespace
 
+SensedPose between(const SensedPose& one, const SensedPose& other, double share) {
+  const auto mean = [&](double SensedPose::*part) {
+    return share * one.*part + (1.0 - share) * other.*part;
+  };
+  return {mean(&SensedPose::position_m),    mean(&SensedPose::height_m),
+          mean(&SensedPose::pitch_rad),     mean(&SensedPose::velocity_mps),
+          mean(&SensedPose::climb_mps),     mean(&SensedPose::pitch_rate_radps),
+          mean(&SensedPose::roll_rad),      mean(&SensedPose::roll_rate_radps),
+          mean(&SensedPose::offset_m),      mean(&SensedPose::heading_rad),
+          mean(&SensedPose::yaw_rate_radps)};
+}
+
 DozerSensorModel::DozerSensorModel(const DozerSensorErrors& errors,
                                    std::optional<std::uint64_t> seed)
     : errors_(errors) {
@@ -68,7 +80,7 @@ DozerReadings::DozerReadings(const DozerPlantProfile& profile)
           static_cast<std::size_t>(std::lround(profile.sensors.pose_latency_s / kCycle_s))),
       pose_(1) {}
 
-void DozerReadings::sense(const DozerPlant& plant) {
+void DozerReadings::sense(const DozerPlant& plant, double later_ps) {
   pose_.push_back({plant.position_m(), plant.height_m(), plant.pitch_rad(), plant.station_mps(),
                    plant.climb_mps(), plant.pitch_rate_radps(), plant.roll_rad(),
                    plant.roll_rate_radps()});
@@ -77,10 +89,15 @@ void DozerReadings::sense(const DozerPlant& plant) {
     pose_.back().heading_rad = plant.plan()->heading_rad();
     pose_.back().yaw_rate_radps = plant.plan()->yaw_rate_radps();
   }
+  later_cycles_ = later_ps == 0.0 ? 0.0 : later_cycles_ + later_ps;
+  const auto later = static_cast<std::size_t>(later_cycles_);
+  const double share = later_cycles_ - static_cast<double>(later);
+  const std::size_t kept = late_cycles_ + later + (share > 0.0 ? 2 : 1);
   // At first it tells of where the body has stood.
-  while (pose_.size() > late_cycles_ + 1 || (pose_.size() > 1 && !started_)) {
+  while (pose_.size() > kept || (pose_.size() > 1 && !started_)) {
     pose_.pop_front();
   }
+  told_ = share > 0.0 && pose_.size() > 1 ? between(pose_[0], pose_[1], share) : pose_.front();
   started_ = true;
 }
 
@@ -89,36 +106,34 @@ dbc::dozer::BladeStroke DozerReadings::stroke(const DozerPlant& plant, const Doz
 }
 
 dbc::dozer::BodyPosition DozerReadings::position(const PoseFaults& faults) {
-  return {position_.show(sensors_.position_m(pose_.front().position_m), faults.position),
-          height_.show(sensors_.height_m(pose_.front().height_m), faults.height)};
+  return {position_.show(sensors_.position_m(told_.position_m), faults.position),
+          height_.show(sensors_.height_m(told_.height_m), faults.height)};
 }
 
 dbc::dozer::BodyPitch DozerReadings::pitch(const PoseFaults& faults) {
-  return {pitch_.show(sensors_.pitch_rad(pose_.front().pitch_rad), faults.pitch),
-          pitch_rate_.show(sensors_.pitch_rate_radps(pose_.front().pitch_rate_radps),
-                           faults.pitch_rate)};
+  return {pitch_.show(sensors_.pitch_rad(told_.pitch_rad), faults.pitch),
+          pitch_rate_.show(sensors_.pitch_rate_radps(told_.pitch_rate_radps), faults.pitch_rate)};
 }
 
 dbc::dozer::BodyVelocity DozerReadings::velocity(const PoseFaults& faults) {
-  return {velocity_.show(sensors_.velocity_mps(pose_.front().velocity_mps), faults.velocity),
-          climb_.show(sensors_.climb_mps(pose_.front().climb_mps), faults.climb)};
+  return {velocity_.show(sensors_.velocity_mps(told_.velocity_mps), faults.velocity),
+          climb_.show(sensors_.climb_mps(told_.climb_mps), faults.climb)};
 }
 
 dbc::dozer::TiltState DozerReadings::tilt(const DozerPlant& plant, const DozerFaults& faults) {
   // The unit that measures the pitch measures the roll.
   const double stroke_m = plant.tilt() ? plant.tilt()->stroke_m() : 0.0;
   return {tilt_stroke_.show(sensors_.stroke_m(stroke_m), ReadingFault(faults.tilt_stroke)),
-          roll_.show(sensors_.pitch_rad(pose_.front().roll_rad), faults.pose.roll),
-          roll_rate_.show(sensors_.pitch_rate_radps(pose_.front().roll_rate_radps),
-                          faults.pose.roll_rate)};
+          roll_.show(sensors_.pitch_rad(told_.roll_rad), faults.pose.roll),
+          roll_rate_.show(sensors_.pitch_rate_radps(told_.roll_rate_radps), faults.pose.roll_rate)};
 }
 
 dbc::dozer::BodyCourse DozerReadings::course(const PoseFaults& faults) {
   // What measures the place along the track measures the one beside it; the unit that measures the
   // pitch turns with the body.
-  return {offset_.show(sensors_.position_m(pose_.front().offset_m), faults.offset),
-          heading_.show(sensors_.heading_rad(pose_.front().heading_rad), faults.heading),
-          yaw_rate_.show(sensors_.pitch_rate_radps(pose_.front().yaw_rate_radps), faults.yaw_rate)};
+  return {offset_.show(sensors_.position_m(told_.offset_m), faults.offset),
+          heading_.show(sensors_.heading_rad(told_.heading_rad), faults.heading),
+          yaw_rate_.show(sensors_.pitch_rate_radps(told_.yaw_rate_radps), faults.yaw_rate)};
 }
 
 dbc::dozer::TrackSpeed DozerReadings::tracks(const DozerPlant& plant, const DozerFaults& faults) {

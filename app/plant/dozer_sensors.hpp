@@ -56,13 +56,17 @@ struct SensedPose {
   double yaw_rate_radps = 0.0;
 };
 
+/// Of `one` so much, of `other` the rest.
+[[nodiscard]] SensedPose between(const SensedPose& one, const SensedPose& other, double share);
+
 /// What the bus is told of stroke, body and tracks. Each is read once a cycle.
 class DozerReadings {
  public:
   explicit DozerReadings(const DozerPlantProfile& profile);
 
-  /// A cycle on: the pose sensor takes in where the body is, and tells of where it was.
-  void sense(const DozerPlant& plant);
+  /// A cycle on: the pose sensor takes in where the body is, and tells of where it was; by
+  /// `later_ps` seconds a second later than it should, from 0 on.
+  void sense(const DozerPlant& plant, double later_ps = 0.0);
 
   [[nodiscard]] dbc::dozer::BladeStroke stroke(const DozerPlant& plant, const DozerFaults& faults);
   [[nodiscard]] dbc::dozer::BodyPosition position(const PoseFaults& faults);
@@ -78,7 +82,9 @@ class DozerReadings {
   DozerSensorModel sensors_;
   std::size_t late_cycles_;
   bool started_ = false;
-  std::deque<SensedPose> pose_;  ///< The oldest first, which is told.
+  double later_cycles_ = 0.0;    ///< By a fault.
+  std::deque<SensedPose> pose_;  ///< The oldest first.
+  SensedPose told_;
   FaultyReading stroke_;
   FaultyReading position_;
   FaultyReading height_;

@@ -71,7 +71,7 @@ void ExcavatorNode::step(TimeUs now) {
   send_seconds(now);
   if (plant_.profile().sold.silent) {
     if (is_due<bus::EEC1>()) {
-      send(bus::EEC1{valid(plant_.engine_radps())}, now);
+      send(bus::EEC1{shown_engine_radps()}, now);
     }
     end_silent_cycle();
     return;
@@ -299,7 +299,7 @@ void ExcavatorNode::send_pumps(TimeUs now) {
   }
   const bool second = plant_.profile().machine.pump_count > 1;
   send(bus::PumpState{valid(swash[0]), second ? valid(swash[1]) : Physical{}}, now);
-  send(bus::EEC1{valid(plant_.engine_radps())}, now);
+  send(bus::EEC1{shown_engine_radps()}, now);
 }
 
 void ExcavatorNode::send_valve(TimeUs now) {

@@ -113,6 +113,10 @@ class MachineNode {
     }
     sender_.send_late(faults_.frames, now);
   }
+  /// As EEC1 shows it.
+  [[nodiscard]] dbc::Physical shown_engine_radps() {
+    return engine_speed_.show(plant_.engine_radps(), faults_.engine_speed);
+  }
   /// A message is sent in every cycle that is so far from the first one, modulo its cycle time.
   template <class Message>
   [[nodiscard]] bool is_due(std::uint64_t offset = 0) const {
@@ -166,6 +170,7 @@ class MachineNode {
   CanPort& port_;
   FrameSender sender_;
   std::uint32_t profile_hash_;
+  FaultyReading engine_speed_;
   StampEcho<typename Dbc::EcuIdentity> echo_;
   CommandLink spool_link_;
   NeutralFirst spool_silence_;

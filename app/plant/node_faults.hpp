@@ -3,10 +3,13 @@
 /// Faults of every simulated machine. The default is nothing; each switch acts from the
 /// next cycle on and can be taken back.
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "app/plant/random.hpp"
 #include "can_dbc/codec.hpp"
@@ -42,6 +45,8 @@ struct LivingLie {
   /// It shows so many times what its reading changes; -1: the other way.
   double gain = 1.0;
   bool from_zero = false;  ///< From 0 on; else from where it was as that began.
+  /// Each second it shows what is so many seconds older than before, in frames as frequent as ever.
+  double later = 0.0;
 };
 
 /// What a stroke sensor shows.
@@ -90,7 +95,7 @@ struct ReadingFault {
 class FaultyReading {
  public:
   [[nodiscard]] dbc::Physical show(double reading, const ReadingFault& fault) {
-    constexpr double kCycle_s = 0.01;
+    reading = late(reading, fault.lie.later);
     drift_ = fault.drift_ps == 0.0 ? 0.0 : drift_ + kCycle_s * fault.drift_ps;
     if (fault.lie.gain == 1.0) {
       from_ = reading;
@@ -106,15 +111,36 @@ class FaultyReading {
   }
 
  private:
+  static constexpr double kCycle_s = 0.01;
+
+  /// As it was by now so long ago.
+  double late(double reading, double later) {
+    if (later == 0.0) {
+      past_.clear();
+      age_s_ = 0.0;
+      return reading;
+    }
+    past_.push_back(reading);
+    age_s_ += kCycle_s * later;
+    const double last = static_cast<double>(past_.size() - 1);
+    const double at = std::max(0.0, last - age_s_ / kCycle_s);
+    const auto before = static_cast<std::size_t>(at);
+    const double next = past_[std::min(before + 1, past_.size() - 1)];
+    return past_[before] + (at - static_cast<double>(before)) * (next - past_[before]);
+  }
+
   double shown_ = 0.0;  ///< Last: a stuck sensor goes on showing it.
   double drift_ = 0.0;
   double from_ = 0.0;
+  double age_s_ = 0.0;
+  std::vector<double> past_;  ///< Readings since it began to be late.
   Random random_{1, Draw::kSensorNoise};
 };
 
 struct NodeFaults {
   bool wrong_identity = false;  ///< The machine names another profile.
   double engine_ratio = 1.0;    ///< Of the engine's speed; 0: it stands.
+  ReadingFault engine_speed;    ///< As EEC1 shows it, rad/s.
   /// EEC1 comes for so long, then not for so long, and so on; 0: all the time.
   TimeUs engine_speed_turns_us = 0;
   bool loses_spool_commands = false;  ///< SpoolCommand does not reach the valve side.

@@ -34,6 +34,8 @@ struct OperatorHands {
   std::array<double, kAxisCount> tried_ratio{};   ///< Duties of Commission, -1 .. 1.
   /// Windows of Commission; without one no frame says anything of the drive.
   std::array<std::optional<StrokeWindow>, kAxisCount> window;
+  /// As graben operate: in every second frame the levers are told a little less.
+  bool alive = false;
 };
 
 /// From `from_us` on the operator asks for this.
@@ -74,13 +76,15 @@ inline constexpr bool kHasHands<Dbc, std::void_t<typename Dbc::OperatorAxes>> = 
 
 constexpr dbc::Physical said(double value) { return {value, dbc::RawState::kValid}; }
 
+/// `less`: 3 % of each, a step or some of the message.
 template <class Dbc>
-auto operator_axes(const OperatorHands& hands) {
+auto operator_axes(const OperatorHands& hands, bool less) {
+  const double share = less ? 0.97 : 1.0;
   typename Dbc::OperatorAxes axes;
-  axes.boom_or_up_ratio = said(hands.lever_ratio[0]);
-  axes.arm_or_forward_ratio = said(hands.lever_ratio[1]);
-  axes.bucket_or_attitude_ratio = said(hands.lever_ratio[2]);
-  axes.swing_ratio = said(hands.lever_ratio[3]);
+  axes.boom_or_up_ratio = said(share * hands.lever_ratio[0]);
+  axes.arm_or_forward_ratio = said(share * hands.lever_ratio[1]);
+  axes.bucket_or_attitude_ratio = said(share * hands.lever_ratio[2]);
+  axes.swing_ratio = said(share * hands.lever_ratio[3]);
   return axes;
 }
 
@@ -173,7 +177,8 @@ class OperatorNode {
       return;
     }
     if (cycle_ % (Dbc::OperatorAxes::kCycleTimeMs / 10) == 0) {
-      sender_.send(detail::operator_axes<Dbc>(*hands_), faults_, now);
+      less_ = hands_->alive && !less_;
+      sender_.send(detail::operator_axes<Dbc>(*hands_, less_), faults_, now);
       sender_.send(detail::commission_duty<Dbc>(*hands_), faults_, now);
     }
     if (cycle_ % (Dbc::CommissionWindow::kCycleTimeMs / 10) == 0) {
@@ -198,6 +203,7 @@ class OperatorNode {
   std::vector<OperatorPhase> schedule_;
   std::optional<OperatorHands> hands_;
   std::size_t turn_ = kAxisCount - 1;  ///< Whose window was sent last.
+  bool less_ = false;                  ///< The last levers were told so.
   std::uint8_t touch_number_ = 0;
   int touch_cycles_ = 0;  ///< Left of the one that is said.
   std::uint64_t cycle_ = 0;

@@ -31,7 +31,8 @@ double& drift_of(plant::AngleFault& fault) { return fault.drift_radps; }
 double& drift_of(plant::ReadingFault& fault) { return fault.drift_ps; }
 
 /// What a sensor can do: freeze, with noise so high or without; step; drift; show so many times
-/// what its reading changes, from where it is or from 0 on.
+/// what its reading changes, from where it is or from 0 on; show each second what is older by so
+/// many seconds.
 template <class Faults, class Find>
 void add_sensor(const std::string& name, const Find& find, PlantFaultTable<Faults>& table) {
   table[name + ":frozen"] = [find](Faults& faults, double) { find(faults).stuck = true; };
@@ -42,6 +43,7 @@ void add_sensor(const std::string& name, const Find& find, PlantFaultTable<Fault
     find(faults).lie.noise = value;
   };
   table[name + ":gain"] = [find](Faults& faults, double value) { find(faults).lie.gain = value; };
+  table[name + ":later"] = [find](Faults& faults, double value) { find(faults).lie.later = value; };
   table[name + ":scale"] = [find](Faults& faults, double value) {
     find(faults).lie.gain = value;
     find(faults).lie.from_zero = true;
@@ -73,6 +75,7 @@ void add_pressure(const std::string& name, const Find& find, PlantFaultTable<Exc
 template <class Faults>
 PlantFaultTable<Faults> common() {
   return {{"engine:runs", [](Faults& faults, double value) { faults.engine_ratio = value; }},
+          {"engine-speed:frozen", [](Faults& faults, double) { faults.engine_speed.stuck = true; }},
           {"engine-speed:by-turns", [](Faults& faults, double value) {
              faults.engine_speed_turns_us = static_cast<TimeUs>(std::llround(value * 1e6));
            }}};
@@ -180,6 +183,10 @@ PlantFaultTable<Dozer> make_dozer() {
       fault->stuck = true;
     }
   };
+  table["pose:later"] = [](Dozer& faults, double value) { faults.pose.later_ps = value; };
+  table["pumps:stay"] = [](Dozer& faults, double) { faults.pumps_stay = true; };
+  table["pump-feedback:echoes"] = [](Dozer& faults, double) { faults.pump_feedback_echoes = true; };
+  table["pump-feedback:frozen"] = [](Dozer& faults, double) { faults.pump_feedback_stuck = true; };
   for (unsigned i = 0; i < kTrackCount; ++i) {
     add_sensor(
         fmt::format("{}-track-speed", kTracks[i]),

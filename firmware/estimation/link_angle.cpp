@@ -13,6 +13,12 @@ namespace {
 
 double square(double value) { return value * value; }
 
+Eigen::Vector2d turned_by(const Eigen::Vector2d& v, double angle_rad) {
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
+
 double direction(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
 /// A measured error of the bias, of the angle or of both: what each state takes of it.
@@ -40,7 +46,10 @@ double LinkAngle::sd_rad(double time_s) const {
   return std::sqrt(std::max(0.0, variance));
 }
 
-bool LinkAngle::contradicts() const { return std::abs(off_rad) > kAngleContradicts_rad; }
+bool LinkAngle::contradicts() const {
+  const bool jumped = jump_most_radps > 0.0 && std::abs(jumped_radps) > jump_most_radps;
+  return jumped || std::abs(off_rad) > kAngleContradicts_rad;
+}
 
 void begin_angle(const AngleNoise& noise, const AngleReading& reading, LinkAngle& state) {
   // What is known of the gyro stays true.
@@ -78,6 +87,29 @@ void carry_angle(const AngleNoise& noise, const AngleReading& reading, bool at_r
                 last.force_mps2, last.turning_radps};
   state.before_radps = last.rate_radps;
   state.last = reading;
+}
+
+void watch_gyro(const AngleNoise& noise, const Eigen::Vector2d& at_m,
+                const Eigen::Vector2d& acceleration_mps2, LinkAngle& state) {
+  const double lever_m = at_m.norm();
+  if (!(lever_m > kGyroLeastLever_m)) {
+    return;
+  }
+  const Eigen::Vector2d expected = turned_by(
+      acceleration_mps2 + Eigen::Vector2d(0.0, kStandardGravity_mps2), -state.then.angle_rad);
+  const Eigen::Vector2d across(-at_m.y() / lever_m, at_m.x() / lever_m);
+  const double more_mps2 = across.dot(expected - state.then.force_mps2);
+  const double period_s = state.last.period_s;
+  state.jumps_radps += period_s * more_mps2 / lever_m -
+                       std::min(1.0, period_s / kGyroJumpTime_s) * state.jumps_radps;
+  state.jumped_radps +=
+      std::min(1.0, period_s / kGyroShakeTime_s) * (state.jumps_radps - state.jumped_radps);
+  // A gyro's jump is two readings of what it is not like; what hits the link goes on.
+  const double shaken = std::max(square(noise.force_mps2), state.shaken);
+  state.shaken = shaken + std::min(1.0, period_s / kGyroShakenTime_s) *
+                              (std::min(square(more_mps2), kGyroShakenMost * shaken) - shaken);
+  const double noise_radps = std::sqrt(0.5 * shaken * period_s * kGyroJumpTime_s) / lever_m;
+  state.jump_most_radps = std::max(kGyroJump_radps, kGyroJumpDeviations * noise_radps);
 }
 
 void correct_angle(const AngleNoise& noise, const Eigen::Vector2d& acceleration_mps2,

@@ -51,6 +51,11 @@ struct LinkAngle {
   AngleMotion then;           ///< At the reading before `last`.
   /// Low-passed: the force's direction against the angle; what hits the link counts little.
   double off_rad = 0.0;
+  /// What the gyro's rate has changed more than the force says that the link was turned, lately.
+  double jumps_radps = 0.0;
+  double jumped_radps = 0.0;  ///< The same, low-passed: what shakes goes to and fro.
+  double shaken = 0.0;  ///< Mean square of the force that the gyro does not explain, (m/s2)^2.
+  double jump_most_radps = 0.0;  ///< More of it than noise makes; 0: the force says nothing of it.
 
   /// Rate and its derivative are known either side.
   [[nodiscard]] bool runs() const { return readings > 2; }
@@ -69,6 +74,12 @@ void begin_angle(const AngleNoise& noise, const AngleReading& reading, LinkAngle
 /// it, its gyro shows the bias.
 void carry_angle(const AngleNoise& noise, const AngleReading& reading, bool at_rest,
                  LinkAngle& state);
+
+/// Compares what the gyro's rate changes with the force across `at_m`, the sensor's place from the
+/// pin that its link turns about: a link that is turned faster takes its sensor along, a gyro that
+/// jumps does not. `acceleration_mps2` as for correct_angle().
+void watch_gyro(const AngleNoise& noise, const Eigen::Vector2d& at_m,
+                const Eigen::Vector2d& acceleration_mps2, LinkAngle& state);
 
 /// Corrects it by the force of the reading before the newest one; `acceleration_mps2` is that of
 /// the sensor's place then, over the ground, y up. Nothing where the force is too small to have a

@@ -45,5 +45,25 @@ inline constexpr double kAngleOffTime_s = 1.0;
 /// Mean angle between gyro and gravity from which they contradict each other. [rad; chosen: 3 deg
 /// is no bias; tried 0.1]
 inline constexpr double kAngleContradicts_rad = 0.05;
+/// Distance of a sensor from its link's pin from which its force tells of its gyro. [m; chosen:
+/// nearer, noise of the force is as much as a gyro's jump; 0.3 tried, a bucket dug in air came to
+/// its bound]
+inline constexpr double kGyroLeastLever_m = 1.0;
+/// Time constant with which what a gyro has jumped is forgotten. [s; chosen: not tried]
+inline constexpr double kGyroJumpTime_s = 0.2;
+/// Time constant of the low-pass of that. [s; chosen: hits in soil shake a link faster; tried
+/// without]
+inline constexpr double kGyroShakeTime_s = 0.05;
+/// Time constant of the mean square of a force that its gyro does not explain. [s; chosen: not
+/// tried]
+inline constexpr double kGyroShakenTime_s = 0.5;
+/// Most of a reading in it, in mean squares: it has to go on. [-; chosen: three deviations; not
+/// tried]
+inline constexpr double kGyroShakenMost = 9.0;
+/// Change of a gyro's rate that its force does not explain, from which one of them is wrong.
+/// [rad/s; chosen: 2 deg/s; not tried]
+inline constexpr double kGyroJump_radps = 0.035;
+/// Least of that in deviations of what the force's noise makes of it. [-; chosen: not tried]
+inline constexpr double kGyroJumpDeviations = 5.0;
 
 }  // namespace graben

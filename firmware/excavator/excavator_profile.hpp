@@ -255,6 +255,9 @@ struct SafetyProfile {
   double swing_stuck_rad = 0.0;        ///< As stuck_m, of the swing.
   double swash_tolerance = 0.0;        ///< Of full swash.
   double pressure_rail_pa = 0.0;       ///< Where the pressure sensors end.
+  /// Levers off their middle change on the bus at least so often, see lever_watch.hpp; 0: they need
+  /// not.
+  double levers_alive_s = 0.0;
 };
 
 /// The platform's turning about the vertical, to the left and to the right. Where a motor on one of

@@ -90,20 +90,22 @@ template <class Kind>
 /// Those that each kind has in its own way, or not at all: 5, 37 - 40, 49.
 [[nodiscard]] Rows<Excavator> excavator_rows();
 [[nodiscard]] Rows<Excavator> pressure_rows();                   ///< 65
-[[nodiscard]] Rows<Excavator> imu_rows();                        ///< 76
+[[nodiscard]] Rows<Excavator> imu_rows();                        ///< 76, 90
 [[nodiscard]] Rows<Excavator> sold_rows();                       ///< 77
 [[nodiscard]] Rows<Excavator> direction_rows(const Excavator&);  ///< 51
 [[nodiscard]] Rows<Dozer> direction_rows(const Dozer&);
 [[nodiscard]] Rows<Excavator> tube_rows(const Excavator&);  ///< 57
 [[nodiscard]] Rows<Dozer> tube_rows(const Dozer&);
-[[nodiscard]] Rows<Excavator> hand_rows(const Excavator&);  ///< 74, 75
-[[nodiscard]] Rows<Dozer> hand_rows(const Dozer&);          ///< And 76, 77: it has neither.
+[[nodiscard]] Rows<Excavator> hand_rows(const Excavator&);  ///< 74, 75, 89
+[[nodiscard]] Rows<Dozer> hand_rows(const Dozer&);          ///< And 76, 77, 90: it has none.
 [[nodiscard]] Rows<Dozer> dozer_rows();
 [[nodiscard]] Rows<Dozer> pose_rows();              ///< 54, 60
 [[nodiscard]] Rows<Dozer> tilt_rows(const Dozer&);  ///< 78, 79
 [[nodiscard]] Rows<Excavator> tilt_rows(const Excavator&);
 [[nodiscard]] Rows<Excavator> mark_rows(const Excavator&);  ///< 86
 [[nodiscard]] Rows<Dozer> mark_rows(const Dozer&);
+[[nodiscard]] Rows<Excavator> engine_rows(const Excavator&);  ///< 85, 87, 88
+[[nodiscard]] Rows<Dozer> engine_rows(const Dozer&);
 [[nodiscard]] Rows<Excavator> stroke_rows();  ///< 55, 82 - 84: a dozer has one stroke.
 /// All of a kind, by their numbers.
 template <class Kind>

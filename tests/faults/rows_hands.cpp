@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows 74 and 75: tasks that go by the operator's hands.
+// Rows 74, 75 and 89: tasks that go by the operator's hands.
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "app/runs/frame_edit.hpp"
 #include "tests/faults/row.hpp"
 
 namespace graben::faults {
@@ -14,9 +16,11 @@ constexpr double kFast_mps = 0.5;
 
 /// From power-on to one of these tasks, on a machine that stands free, with the hands at rest.
 /// `alike`: boom and arm are as far extended, so that none shows a jump that is not its own.
-plant::OperatorHands begin_by_hand(Trial<Excavator>& trial, Task task, bool alike = false) {
+plant::OperatorHands begin_by_hand(Trial<Excavator>& trial, Task task, bool alike = false,
+                                   double levers_alive_s = 0.0) {
   Excavator::Scenery scenery = Excavator::scenery_of(trial.seed());
   scenery.machine.plant.soil.reset();
+  scenery.machine.profile.safety.levers_alive_s = levers_alive_s;
   if (alike) {
     scenery.start_strokes_m << 0.7, 0.7, 0.5;
   }
@@ -56,6 +60,39 @@ void hands_silent(Trial<Excavator>& trial) {
     rig.driver.set_hands({});
   };
   rig.driver.faults().set_silent(id, true);
+  trial.expect_stop(stop);
+}
+
+/// What reads the levers hangs, what sends them goes on: the same for good, under a counter, a
+/// checksum and a deadman that live.
+void hands_frozen(Trial<Excavator>& trial) {
+  constexpr double kAlive_s = 0.1;
+  const Task task = trial.odd() ? Task::kJog : Task::kCoordinated;
+  plant::OperatorHands hands = begin_by_hand(trial, task, false, kAlive_s);
+  auto& rig = *trial.rig;
+  // Also at its end, where a lever stands by itself.
+  const double lever = trial.any_of(2) == 0 ? 1.0 : 0.4;
+  hands.lever_ratio[kArm] = trial.any_of(2) == 0 ? lever : -lever;
+  hands.alive = true;
+  rig.driver.set_hands(hands);
+  rig.run(trial.any_time(200 * kMillisecondUs, 800 * kMillisecondUs));
+  trial.check(rig.mode() == EcuMode::kActive, "it does not work");
+  std::optional<CanFrame> kept;
+  rig.tamper = [&kept](CanFrame& frame, const LoopbackPort*) {
+    if (frame.id == dbc::excavator::OperatorAxes::kId) {
+      kept = kept ? kept : std::optional<CanFrame>(frame);
+      const std::uint8_t counter = runs::counter_of(frame);
+      frame.data = kept->data;
+      runs::protect<Excavator>(frame, counter);
+    }
+    return true;
+  };
+  constexpr TimeUs kSeen_us = 160 * kMillisecondUs;  // kAlive_s, two frames and a cycle.
+  Stop stop{rig.at_us(), {Fault::kOperatorMissing}, kSeen_us};
+  stop.cure = [&rig] {
+    rig.tamper = nullptr;
+    rig.driver.set_hands({});
+  };
   trial.expect_stop(stop);
 }
 
@@ -106,14 +143,17 @@ void commissioning_fails(Trial<Excavator>& trial) {
 
 Rows<Excavator> hand_rows(const Excavator&) {
   return {{74, "levers, or duties to try, silent", "N L", hands_silent},
-          {75, "commissioning: reversed, swapped, too fast, too many", "N L", commissioning_fails}};
+          {75, "commissioning: reversed, swapped, too fast, too many", "N L", commissioning_fails},
+          {89, "levers frozen under a live counter, their station alive", "N L", hands_frozen}};
 }
 
 Rows<Dozer> hand_rows(const Dozer&) {
   return {{74, "levers, or duties to try, silent", "a dozer has no such task", nullptr},
           {75, "commissioning", "a dozer has no such task", nullptr},
           {76, "an IMU wrong", "a dozer has no IMUs", nullptr},
-          {77, "a sensor of CANopen tells an emergency", "a dozer has none", nullptr}};
+          {77, "a sensor of CANopen tells an emergency", "a dozer has none", nullptr},
+          {89, "levers frozen", "a dozer has no such task", nullptr},
+          {90, "a gyro jumps", "a dozer has no IMUs", nullptr}};
 }
 
 }  // namespace graben::faults

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Row 76: IMUs on the links in the place of stroke sensors, silent or wrong.
+// Rows 76 and 90: IMUs on the links in the place of stroke sensors, silent or wrong.
 
 #include <algorithm>
 #include <cmath>
@@ -189,11 +189,52 @@ void imu_wrong(Trial<Excavator>& trial) {
   trial.saw(seen ? "N L" : "no harm");
 }
 
+/// A gyro that is off by so much from now on.
+constexpr double kGyroOff_radps = 0.07;
+constexpr double kGyroHarmMost_m = 0.15;
+/// Of the bucket's, which is too near to its pin for its force to tell of its gyro at once, and the
+/// arm's, whose force may be shaken too much for that.
+constexpr double kNearGyroHarmMost_m = 0.25;
+
+void gyro_jumps(Trial<Excavator>& trial) {
+  dig_by_imus(trial);
+  auto& rig = *trial.rig;
+  const unsigned axis = trial.any_of(kAxisCount);
+  const std::uint32_t id = (Rates::kId & ~0xFFU) | rig.machine.profile.imu.mount[axis].address;
+  const double off_radps = trial.odd() ? kGyroOff_radps : -kGyroOff_radps;
+  const double before_m = tip_off_path_m(rig);
+  const TimeUs since_us = rig.at_us();
+  rig.tamper = [id, off_radps](CanFrame& frame, const LoopbackPort*) {
+    if (frame.id == id) {
+      Rates message = Rates::decode(frame.data);
+      message.pitch_rate_radps.value += off_radps;
+      frame.data = message.encode();
+    }
+    return true;
+  };
+  double most_m = 0.0;
+  const bool seen = rig.run_until(kLookedAt_us, [&] {
+    most_m = std::max(most_m, tip_off_path_m(rig) - before_m);
+    return rig.mode() != EcuMode::kActive;
+  });
+  rig.tamper = nullptr;
+  trial.check(seen, "not seen");
+  trial.outcome.codes.add(rig.outputs().status.fault);
+  trial.outcome.to_detection_us = rig.at_us() - since_us;
+  trial.check(!rig.outputs().enable, "not neutral in that cycle");
+  trial.outcome.harm = most_m;
+  trial.outcome.harm_unit = "m";
+  trial.check(most_m <= (axis == kBoom ? kGyroHarmMost_m : kNearGyroHarmMost_m),
+              "the true tip is " + std::to_string(1e3 * most_m) + " mm further off the path");
+  trial.saw("N L");
+}
+
 }  // namespace
 
 Rows<Excavator> imu_rows() {
   return {{76, "IMU silent, degraded, frozen, doubled, tilted, offset, other sign, shaken",
-           "N L | no harm", imu_wrong}};
+           "N L | no harm", imu_wrong},
+          {90, "a gyro jumps by 4 deg/s", "N L", gyro_jumps}};
 }
 
 }  // namespace graben::faults

@@ -151,7 +151,8 @@ LieOutcome run(const LieCase& lie, const typename Kind::Scenery& scenery, Task t
   Off off(lie, rig);
   const TimeUs since_us = rig.at_us();
   const auto look = [&] { outcome.off = std::max(outcome.off, off.now()); };
-  const double looked_s = std::min(kLookedFor_s / lie.speed_ratio, kLongest_s);
+  const double looked_s =
+      lie.looked_s > 0.0 ? lie.looked_s : std::min(kLookedFor_s / lie.speed_ratio, kLongest_s);
   const bool seen = rig.run_until(microseconds(looked_s), [&] {
     off.hear();
     look();

@@ -16,6 +16,7 @@ struct LieCase {
   double speed_ratio = 1.0;         ///< The operator's.
   bool soil = false;
   bool from_start = false;  ///< They are there from power-on.
+  double looked_s = 0.0;    ///< So long it may go on; 0: 20 s at full speed, 60 s at most.
 };
 
 struct LieOutcome {

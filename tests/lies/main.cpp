@@ -60,6 +60,7 @@ int main(int count, char** words) {
   app.add_flag("--soil", lie.soil, "in soil");
   app.add_flag("--second", lie.seconds, "with second sensors on every joint");
   app.add_flag("--from-start", lie.from_start, "from power-on");
+  app.add_option("--for", lie.looked_s, "so long it may go on, s")->check(CLI::Range(1.0, 600.0));
   app.add_option("--seeds", seeds, "how many")->check(CLI::Range(1, 100000));
   app.add_option("--first-seed", first, "the first");
   app.add_flag("--each", each, "a line each");

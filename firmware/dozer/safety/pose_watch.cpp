@@ -68,7 +68,9 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double curv
     const double uphill_mps =
         beyond(valid.climb_mps - valid.velocity_mps * std::tan(valid.pitch_rad), tips_mps);
     const double ground_mps = valid.velocity_mps / std::cos(valid.pitch_rad);
-    next(valid.position_m - state.position_m - valid.velocity_mps * period_s, kept, state.ahead_m);
+    const double ahead_m = valid.position_m - state.position_m - valid.velocity_mps * period_s;
+    next(ahead_m, kept, state.ahead_m);
+    next(ahead_m, std::max(0.0, 1.0 - period_s / kLaterForget_s), state.later_m);
     next(valid.height_m - state.height_m - valid.climb_mps * period_s, kept, state.climbed_m);
     next(valid.pitch_rad - state.pitch_rad - valid.pitch_rate_radps * period_s, kept,
          state.turned_rad);
@@ -100,7 +102,8 @@ bool watch_pose(const DozerValid& valid, const GroundSpeeds& speeds, double curv
          exceeds(state.aside_m, kMostAhead_m) || exceeds(state.yawed_rad, kMostYawed_rad) ||
          exceeds(state.uphill_m, kMostUphill_m) || exceeds(state.slipped_m, kMostSlipped_m) ||
          exceeds(state.nods_rad, kMostDrift_rad) || exceeds(state.rocks_rad, kMostDrift_rad) ||
-         exceeds(state.behind_m, kMostSlips_m) || exceeds(state.before_m, kMostSlips_m);
+         exceeds(state.later_m, kMostLater_m) || exceeds(state.behind_m, kMostSlips_m) ||
+         exceeds(state.before_m, kMostSlips_m);
 }
 
 }  // namespace graben

@@ -34,6 +34,7 @@ struct PoseWatchState {
   double slipped_m = 0.0;  ///< Velocity against the tracks, slip taken off.
   double nods_rad = 0.0;   ///< As turned_rad, over a longer time: a slow drift.
   double rocks_rad = 0.0;  ///< The same of roll.
+  double later_m = 0.0;    ///< As ahead_m, over a longer time: a pose that comes later and later.
   double behind_m = 0.0;   ///< The body's way less than the tracks', beyond what these may slip;
   double before_m = 0.0;   ///< and more.
 };

@@ -62,6 +62,67 @@ bool are_apart(const DozerProfile& profile, const TrackSpeeds& speeds, const Doz
 /// The time that something has lasted.
 void count(bool lasts, double period_s, double& for_s) { for_s = lasts ? for_s + period_s : 0.0; }
 
+/// With neither track, the body goes otherwise than it does itself, slip taken off.
+bool goes_along(const TrackSpeeds& speeds, const DozerValid& valid) {
+  bool along = true;
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    const double track_mps = valid.track_speed_mps[i];
+    along = along && !differs(speeds.beside_mps[i], track_mps, kSlipMargin_mps, kPoseMostSlip);
+  }
+  return along;
+}
+
+/// More than the slope takes: a load holds the tracks.
+bool presses(const DozerProfile& profile, const DozerValid& valid) {
+  const double weight_n = profile.body.mass_kg * kStandardGravity_mps2;
+  const double slope_n = weight_n * std::abs(std::sin(valid.pitch_rad));
+  return traction_n(profile, valid) > slope_n + kTrackPressShare * weight_n;
+}
+
+bool stand(const TrackSpeeds& speeds, const DozerValid& valid) {
+  bool all = true;
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    const double expected_mps = std::abs(speeds.expected_mps[i]);
+    const double along_mps = std::copysign(1.0, speeds.expected_mps[i]) * valid.track_speed_mps[i];
+    all =
+        all && expected_mps > kTrackStandsFrom_mps && along_mps < kTrackStandsShare * expected_mps;
+  }
+  return all;
+}
+
+/// Both, to the same side, for so long that each disagrees.
+bool are_off(const TrackSpeeds& speeds, const DozerValid& valid,
+             const TransmissionWatchState& state) {
+  const double left_mps = valid.track_speed_mps[kLeft] - speeds.expected_mps[kLeft];
+  const double right_mps = valid.track_speed_mps[kRight] - speeds.expected_mps[kRight];
+  return std::min(state.track_off_s[kLeft], state.track_off_s[kRight]) > kTrackOff_s &&
+         left_mps * right_mps > 0.0;
+}
+
+/// Or as fast, the other way.
+bool are_faster(const TrackSpeeds& speeds, const DozerValid& valid) {
+  double more_mps = 0.0;
+  for (unsigned i = 0; i < kTrackCount; ++i) {
+    more_mps += std::abs(valid.track_speed_mps[i]) - std::abs(speeds.expected_mps[i]);
+  }
+  return more_mps >= 0.0;
+}
+
+/// What stops, where tracks and body agree against (9). After watch_tracks().
+void watch_both(const DozerProfile& profile, const DozerValid& valid, double period_s,
+                TransmissionWatchState& state, FaultSet& stops) {
+  const TrackSpeeds speeds = speeds_beside(profile, valid);
+  const bool along = goes_along(speeds, valid);
+  count(along && !presses(profile, valid) && stand(speeds, valid), period_s, state.stood_s);
+  if (state.stood_s > kTrackStands_s) {
+    stops.add(Fault::kEngineDoubtful);
+  }
+  if (along && are_off(speeds, valid, state) && are_faster(speeds, valid)) {
+    stops.add(Fault::kTracksAstray);
+    stops.add(Fault::kDisplacementRunaway);
+  }
+}
+
 /// True where a track's sensor disagrees.
 bool watch_tracks(const DozerProfile& profile, double period_s, TransmissionWatchState& state,
                   DozerValid& valid) {
@@ -101,10 +162,12 @@ TransmissionWatchResult watch_transmission(const DozerProfile& profile,
   }
   if (tracks_judged) {
     result.tracks_disagree = watch_tracks(profile, period_s, state, valid);
+    watch_both(profile, valid, period_s, state, result.stops);
   } else {
     state.track_off_s = {};
     state.outvoted_s = {};
     state.apart_s = 0.0;
+    state.stood_s = 0.0;
   }
   return result;
 }

@@ -25,10 +25,12 @@ struct TransmissionWatchState {
   std::array<double, kTrackCount> track_off_s{};
   std::array<double, kTrackCount> outvoted_s{};
   double apart_s = 0.0;  ///< The tracks have differed in what their sensors say beyond (9).
+  double stood_s = 0.0;  ///< Both have stood, unpressed, though (9) has them run.
 };
 
 struct TransmissionWatchResult {
-  FaultSet stops;  ///< kDisplacementDisagrees, kDisplacementRunaway
+  /// kDisplacementDisagrees, kDisplacementRunaway, kEngineDoubtful, kTracksAstray
+  FaultSet stops;
   bool tracks_disagree = false;
 };
 
@@ -44,6 +46,14 @@ struct TransmissionWatchResult {
 /// one of them is further from (9) than the other: losses and slip are the same on both sides of a
 /// machine that goes straight on, and a sensor that shows a share of its speed turns it. On a track
 /// that curves, where they are not, it has to be more.
+///
+/// Where the body goes along with both tracks, it is what (9) is made of that lies, and that stops:
+/// kTracksAstray, and kDisplacementRunaway with it, where both have been faster than (9) for so
+/// long that each disagrees: to be told to be slower does not reach them. Where they are slower,
+/// losses may be wrong, or a load holds them, and they only disagree. kEngineDoubtful where both
+/// have stood for 0.3 s, at less than 0.3 of the speed of (9), above 0.1 m/s, unless the lines
+/// press with more than the slope takes, by a twentieth of the weight: then a load holds them. A
+/// machine that does not tell its lines' pressures counts as not pressing.
 [[nodiscard]] TransmissionWatchResult watch_transmission(const DozerProfile& profile,
                                                          TransmissionWatchState& state,
                                                          const SentRatios& sent,

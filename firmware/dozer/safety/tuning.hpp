@@ -35,6 +35,12 @@ inline constexpr double kSlopeForget_s = 3.0;
 /// Limit of the residual of position against velocity, and of offset against heading. [m; chosen:
 /// above what a healthy body shows with its noise and the ground's roughness; not tried]
 inline constexpr double kMostAhead_m = 0.05;
+/// Time constant with which the slow residual of position against velocity forgets. [s; chosen: a
+/// pose that comes 20 ms later each second is then 0.4 s of way off; not tried]
+inline constexpr double kLaterForget_s = 20.0;
+/// Limit of the slow residual of position against velocity. [m; chosen: what a pose that comes 20
+/// ms later each second shows after 4 s at 1.6 m/s; not tried]
+inline constexpr double kMostLater_m = 0.12;
 /// Limit of the residual of height against climb. [m; chosen: above what a healthy body shows with
 /// its noise and the ground's roughness; not tried]
 inline constexpr double kMostClimbed_m = 0.02;
@@ -118,6 +124,19 @@ inline constexpr double kTracksApartShare = 0.05;
 /// first, healthy tracks passed for a fault; a sensor that turned the machine would have it steer
 /// back]
 inline constexpr double kTracksApartOnCurve = 0.2;
+
+/// Time that both tracks have to stand though they should run. [s; chosen: as kTrackOff_s; an
+/// engine takes longer to start; not tried]
+inline constexpr double kTrackStands_s = 0.3;
+/// Share of the speed of their displacements below which they stand. [-; chosen: half of what is
+/// left to tracks that lose a third; not tried]
+inline constexpr double kTrackStandsShare = 0.3;
+/// Speed of their displacements from which they should run. [m/s; chosen: above the zeros of pump
+/// and track sensors; not tried]
+inline constexpr double kTrackStandsFrom_mps = 0.1;
+/// Traction beyond the slope's, as a share of the weight, from which it is a load that holds the
+/// tracks. [-; chosen: half of what rolling takes; not tried]
+inline constexpr double kTrackPressShare = 0.05;
 
 // Rest (dozer_watch.cpp)
 

@@ -131,6 +131,7 @@ void correct_links(const ExcavatorGeometry& geometry, const ImuProfile& profile,
     Place sensor = pin.plus(mount.at_m, state.link[axis].then);
     sensor.acceleration_mps2.x() -=
         turning_radps * turning_radps * (geometry.boom_foot_m.x() + sensor.at_m.x());
+    watch_gyro(noise, mount.at_m, sensor.acceleration_mps2, state.link[axis]);
     correct_angle(noise, sensor.acceleration_mps2, state.link[axis]);
   }
   if (is_new[kBodyImu]) {

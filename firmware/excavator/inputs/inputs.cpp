@@ -81,6 +81,18 @@ FaultSet task_faults(const ExcavatorValid& valid, int program_count) {
   return faults;
 }
 
+/// kOperatorMissing where the levers that lead the machine come as those of a station that has
+/// promised more.
+FaultSet lever_faults(const SafetyProfile& safety, const ExcavatorValid& valid, bool moving,
+                      double period_s, LeverWatch& state) {
+  FaultSet faults;
+  if (levers_stand_still(safety.levers_alive_s, moving && is_by_lever(valid.task),
+                         valid.lever_ratio, period_s, state)) {
+    faults.add(Fault::kOperatorMissing);
+  }
+  return faults;
+}
+
 }  // namespace
 
 ExcavatorValid read_inputs(const ExcavatorModel& machine, int program_count,
@@ -94,6 +106,9 @@ ExcavatorValid read_inputs(const ExcavatorModel& machine, int program_count,
   watch(machine.profile, drives, last.commands, last.swash_ratio, cycle.elapsed_s, state.watch,
         valid);
   stop(task_faults(valid, program_count), valid);
+  stop(lever_faults(machine.profile.safety, valid, last.commands.moving, cycle.elapsed_s,
+                    state.levers),
+       valid);
   if (any_blocked(state.watch.drives.blocked)) {
     warn(Fault::kBlocked, valid);
   }

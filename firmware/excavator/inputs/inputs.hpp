@@ -6,6 +6,7 @@
 #include "firmware/drives/commission_guard.hpp"
 #include "firmware/estimation/foretold_angle.hpp"
 #include "firmware/excavator/inputs/imu_joints.hpp"
+#include "firmware/excavator/inputs/lever_watch.hpp"
 #include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/excavator/stage.hpp"
 #include "firmware/safety/cycle.hpp"
@@ -22,6 +23,7 @@ struct InputState {
   SecondStates seconds;
   ExcavatorWatchState watch;
   TaskChangeState change;
+  LeverWatch levers;
   std::array<CommissionState, kDriveCount> commission;
   std::array<double, kDriveCount> tried_ratio{};  ///< Duties of this cycle that may be sent.
 };

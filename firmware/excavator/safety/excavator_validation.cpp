@@ -134,12 +134,33 @@ bool watch_swash(const ExcavatorProfile& profile, bool commanded,
   return disagrees;
 }
 
+namespace {
+
+/// While duties are tried nobody knows what is asked.
+bool gets_nothing(DriveRows drives, const LastCommands<kDriveCount>& last, bool checked,
+                  const ExcavatorValid& valid, double period_s, ExcavatorWatchState& state) {
+  if (!checked || state.drives.tried_s > 0.0) {
+    state.supply = {};
+    return false;
+  }
+  bool held = any_blocked(state.drives.blocked);
+  for (const BlockedState& drive : state.drives.blocked) {
+    held = held || drive.strains || drive.less > 0.0;
+  }
+  return watch_supplies(drives, valid.drive, last.asked_mps, held, period_s, state.supply);
+}
+
+}  // namespace
+
 void watch(const ExcavatorProfile& profile, DriveRows drives, const LastCommands<kDriveCount>& last,
            const std::array<double, kPumpCount>& swash_ratio, double period_s,
            ExcavatorWatchState& state, ExcavatorValid& valid) {
   const bool checked = last.moving && valid.fault == Fault::kNone;
-  const FaultSet stops =
+  FaultSet stops =
       watch_drives(drives, profile.bus, last, valid.drive, period_s, state.drives, valid);
+  if (gets_nothing(drives, last, checked, valid, period_s, state)) {
+    stops.add(Fault::kEngineDoubtful);
+  }
   std::array<double, kPumpCount> flowing_ratio = valid.swash_ratio;
   if (watch_swash(profile, checked && last.enable, swash_ratio, period_s, flowing_ratio,
                   state.swash)) {

@@ -7,6 +7,7 @@
 #include "firmware/drives/drive_watch.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
+#include "firmware/excavator/safety/supply_watch.hpp"
 #include "firmware/safety/common_inputs.hpp"
 #include "firmware/safety/witness.hpp"
 
@@ -60,12 +61,14 @@ using SwashStates = std::array<SwashState, kPumpCount>;
 struct ExcavatorWatchState {
   DriveWatchState<kDriveCount> drives;
   SwashStates swash{};
+  SuppliesState supply;
   SlowingState slowing;
 };
 
 /// Adds the watches' faults to `valid`, and the pumps' flow; takes off the operator's speed
 /// (`safety.degraded_speed`) while anything is degraded, and for kSlowAfter_s after. `state` goes
-/// on by a cycle. `swash_ratio` is what the last cycle told the pumps. See watch_drives().
+/// on by a cycle. `swash_ratio` is what the last cycle told the pumps. See watch_drives(). Drives
+/// that get nothing of their pumps (watch_supplies()) are kEngineDoubtful, which stops.
 void watch(const ExcavatorProfile& profile, DriveRows drives, const LastCommands<kDriveCount>& last,
            const std::array<double, kPumpCount>& swash_ratio, double period_s,
            ExcavatorWatchState& state, ExcavatorValid& valid);

@@ -74,6 +74,8 @@ const Promise kPromises[] = {
     {51, Fault::kWitnessDisagrees, 'N', 2, ArmBlock::kStroke},
     {52, Fault::kMarkMissed, 'N', 14, ArmBlock::kMark},
     {53, Fault::kMarkDue, 'W', 31, ArmBlock::kMark},
+    // An engine that stands though its speed says that it runs.
+    {54, Fault::kEngineDoubtful, 'N', 2, ArmBlock::kEngineStopped},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},
@@ -81,6 +83,7 @@ const Promise kPromises[] = {
     {34, Fault::kDisplacementDisagrees, 'N', 7, ArmBlock::kTransmission},
     {35, Fault::kDisplacementRunaway, 'N', 7, ArmBlock::kTransmission},
     {36, Fault::kTrackSpeedDisagrees, 'D', 2, ArmBlock::kTransmission},
+    {55, Fault::kTracksAstray, 'N', 2, ArmBlock::kTransmission},
 };
 
 TEST(every_fault_keeps_its_promise) {

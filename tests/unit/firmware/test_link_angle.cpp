@@ -3,8 +3,10 @@
 
 #include "firmware/estimation/link_angle.hpp"
 
+#include <cmath>
 #include <random>
 
+#include "firmware/estimation/tuning.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 constexpr double kPeriod_s = 0.01;
@@ -147,6 +149,57 @@ TEST(a_stuck_sensor_contradicts, Body body) {
   assert_in_range(cycles, 20, 300);
 }
 
+/// Of a sensor at `at_m` from its pin, as its own gyro has it.
+Eigen::Vector2d by_gyro(const Eigen::Vector2d& at_m, const LinkAngle& state) {
+  const Eigen::Vector2d arm = turned(at_m.x(), at_m.y(), state.then.angle_rad);
+  return state.then.acceleration_radps2 * Eigen::Vector2d(-arm.y(), arm.x()) -
+         state.then.rate_radps * state.then.rate_radps * arm;
+}
+
+/// From 2 s on its gyro is off by that much, the sensor as it is told 2 m from its pin or nearer.
+/// Time from there until it has contradicted its force; 1000 s: not within `most_s`.
+double seen_after_s(Body body, double off_radps, double most_s, const AngleNoise& noise = kNoise,
+                    double lever_m = 2.0) {
+  LinkAngle state;
+  begin_angle(noise, body.reading(0.0), state);
+  for (int i = 1; i * kPeriod_s < 2.0 + most_s; ++i) {
+    const double t = i * kPeriod_s;
+    body.bias_radps = t < 2.0 ? 0.0 : off_radps;
+    carry_angle(noise, body.reading(t), false, state);
+    if (state.runs()) {
+      const Eigen::Vector2d acceleration = by_gyro({2.0, 0.0}, state);
+      watch_gyro(noise, {lever_m, 0.0}, acceleration, state);
+      correct_angle(noise, acceleration, state);
+    }
+    if (state.contradicts()) {
+      return t - 2.0;
+    }
+  }
+  return 1000.0;
+}
+
+TEST(a_gyro_that_jumps_contradicts, Body body) {
+  body.noise = 1.0;
+  for (const double swing_rad : {0.0, 0.3}) {
+    body.swing_rad = swing_rad;
+    assert_true(seen_after_s(body, 0.0, 60.0) > 60.0);
+    for (const double side : {1.0, -1.0}) {
+      assert_true(seen_after_s(body, 0.07 * side, 1.0) < 0.10);
+      // Too near to its pin, its force tells nothing of it so soon.
+      assert_true(seen_after_s(body, 0.07 * side, 0.3, kNoise, 0.99) > 0.3);
+      // So little may be anything.
+      assert_true(seen_after_s(body, 0.02 * side, 0.3) > 0.3);
+    }
+  }
+}
+
+/// Where the force is noisier, more of it is.
+TEST(a_noisy_force_tells_less, Body body) {
+  const AngleNoise noisy = {kNoise.rate_radps, kNoise.bias_radps, 2.0};
+  assert_true(seen_after_s(body, 0.07, 0.3, noisy) > 0.3);
+  assert_true(seen_after_s(body, 0.3, 0.3, noisy) < 0.10);
+}
+
 TEST(blows_are_no_tilt, Body body) {
   LinkAngle state;
   begin_angle(kNoise, body.reading(0.0), state);
@@ -176,4 +229,86 @@ TEST(falls_without_direction, LinkAngle state) {
     correct_angle(kNoise, Eigen::Vector2d(0.0, -kGravity), state);
   }
   assert_near(state.angle_rad, before, 1e-12);
+}
+
+AngleReading shown(double rate_radps, double force_mps2) {
+  return {kPeriod_s, rate_radps, {force_mps2, 0.0}, 0.0};
+}
+
+TEST(its_bounds_are_no_contradiction, LinkAngle state) {
+  for (const double side : {1.0, -1.0}) {
+    state.off_rad = side * kAngleContradicts_rad;
+    assert_false(state.contradicts());
+    state.off_rad = std::nextafter(state.off_rad, side);
+    assert_true(state.contradicts());
+    state.off_rad = 0.0;
+    state.jump_most_radps = 0.5;
+    state.jumped_radps = side * 0.5;
+    assert_false(state.contradicts());
+    state.jumped_radps = std::nextafter(state.jumped_radps, side);
+    assert_true(state.contradicts());
+    // A force that says nothing of it.
+    for (const double none_radps : {0.0, -1.0}) {
+      state.jump_most_radps = none_radps;
+      assert_false(state.contradicts());
+    }
+    state.jumped_radps = 0.0;
+  }
+}
+
+/// What was known of its bias stays; what was not is what its noise says.
+TEST(a_beginning_keeps_the_bias) {
+  for (const double known : {-1.0, 0.0, 4.0}) {
+    LinkAngle state;
+    state.bias_radps = 0.25;
+    state.bias_variance = known;
+    begin_angle({0.0, 3.0, 0.3}, shown(0.0, kGravity), state);
+    assert_near(state.bias_variance, known > 0.0 ? known : 9.0, 0.0);
+    assert_near(state.bias_radps, 0.25, 0.0);
+  }
+}
+
+TEST(the_least_force_has_no_direction) {
+  LinkAngle begun;
+  begin_angle(kNoise, shown(0.0, kAngleLeastForce_mps2), begun);
+  assert_int_equal(begun.readings, 0);
+  begin_angle(kNoise, shown(0.0, std::nextafter(kAngleLeastForce_mps2, 9.0)), begun);
+  assert_int_equal(begun.readings, 1);
+  for (const double force_mps2 : {0.5 * kAngleLeastForce_mps2, kAngleLeastForce_mps2, kGravity}) {
+    LinkAngle state;
+    state.angle_variance = 1.0;
+    state.then.force_mps2 = {force_mps2, 0.0};
+    correct_angle(kNoise, Eigen::Vector2d::Zero(), state);
+    assert_int_equal(state.angle_rad != 0.0, force_mps2 > kAngleLeastForce_mps2);
+  }
+}
+
+/// At rest, and no faster than its noise and its bias may show.
+TEST(what_a_gyro_shows_at_rest_is_its_bias) {
+  const AngleNoise noise{3.0, 4.0, 0.3};
+  const double most_radps = kRestMostDeviations * 5.0;
+  for (const double side : {1.0, -1.0}) {
+    const auto bias_radps = [&](double rate_radps, bool at_rest) {
+      LinkAngle state;
+      begin_angle(noise, shown(0.0, kGravity), state);
+      carry_angle(noise, shown(rate_radps, kGravity), at_rest, state);
+      return side * state.bias_radps;
+    };
+    const double less_radps = std::nextafter(side * most_radps, 0.0);
+    assert_true(bias_radps(less_radps, true) > 1.0);
+    assert_near(bias_radps(less_radps, false), 0.0, 0.0);
+    assert_near(bias_radps(side * most_radps, true), 0.0, 0.0);
+    assert_near(bias_radps(side * most_radps * 1.5, true), 0.0, 0.0);
+  }
+}
+
+/// Nor one that is as near as that to its pin.
+TEST(the_least_lever_tells_nothing) {
+  for (const bool more : {false, true}) {
+    LinkAngle state;
+    begin_angle(kNoise, shown(0.0, kGravity), state);
+    const double lever_m = more ? std::nextafter(kGyroLeastLever_m, 9.0) : kGyroLeastLever_m;
+    watch_gyro(kNoise, {lever_m, 0.0}, Eigen::Vector2d::Zero(), state);
+    assert_int_equal(state.jump_most_radps > 0.0, more);
+  }
 }

@@ -260,6 +260,7 @@ TEST(the_most_itself_is_well) {
               {&PoseWatchState::slipped_m, kMostSlipped_m},
               {&PoseWatchState::nods_rad, kMostDrift_rad},
               {&PoseWatchState::rocks_rad, kMostDrift_rad},
+              {&PoseWatchState::later_m, kMostLater_m},
               {&PoseWatchState::behind_m, kMostSlips_m},
               {&PoseWatchState::before_m, kMostSlips_m}};
   for (const auto& row : rows) {
@@ -296,10 +297,24 @@ TEST(a_long_cycle_forgets, Body body) {
   body.step();
   body.state.ahead_m = body.state.climbed_m = body.state.turned_rad = body.state.yawed_rad =
       body.state.uphill_m = body.state.slipped_m = 1.0;
+  body.valid.position_m += 4.0 * body.valid.velocity_mps;
   assert_false(watch_pose(body.valid, body.speeds, 0.0, 4.0, body.state));
   assert_near(body.state.ahead_m + body.state.climbed_m + body.state.turned_rad +
                   body.state.yawed_rad + body.state.uphill_m + body.state.slipped_m,
               0.0, 0.0);
+}
+
+/// Of a pose that comes 20 ms later each second its position falls behind its velocity; one that
+/// comes 3 ms later is well.
+TEST(a_pose_that_comes_later_is_seen) {
+  for (const double later : {0.02, -0.02, 0.003}) {
+    Body body(1.6);
+    const double each_m = kPeriod_s * 1.6 * later;
+    const int due = cycles_to(std::abs(each_m), kMostLater_m, kLaterForget_s);
+    assert_int_equal(body.begin_until_seen([&](DozerValid& valid) { valid.position_m -= each_m; }),
+                     due);
+    assert_true(later == 0.003 ? due == 0 : due > 300 && due < 600);
+  }
 }
 
 /// A drift that is too slow for the short residual; a gyro that is off by less is well.

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "firmware/dozer/safety/tuning.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/plain_dozer.hpp"
@@ -150,6 +152,151 @@ TEST(sides_apart_disagree) {
   }
 }
 
+/// (9) of a track.
+double expected_mps(const Machine& machine) {
+  return track_speed_mps(machine.profile.hst, machine.valid.engine_radps,
+                         machine.valid.pump_ratio[kLeft], machine.valid.motor_ratio[kLeft]);
+}
+
+bool engine_is_doubtful(Machine machine, double for_s) {
+  return machine.step(for_s).stops.has(Fault::kEngineDoubtful);
+}
+
+/// Both tracks and the body, for more than 0.3 s, either way; not when they have run since.
+TEST(what_stands_though_it_should_run_has_no_engine) {
+  for (const double way : {1.0, -1.0}) {
+    Machine machine;
+    machine.drive(way * 0.5);
+    machine.run_at(0.0);
+    assert_true(machine.step(0.3).stops.empty());
+    assert_true(machine.step(1e-9).stops.has(Fault::kEngineDoubtful));
+    machine.run_at(way);
+    assert_true(machine.step().stops.empty());
+    machine.run_at(0.0);
+    assert_true(machine.step(0.3).stops.empty());
+    // Backwards is no better.
+    machine.run_at(-0.05 * way);
+    assert_true(machine.step(1e-9).stops.has(Fault::kEngineDoubtful));
+  }
+}
+
+/// Each track, at less than 0.3 of (9); a slower one says nothing.
+TEST(both_have_to_stand) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    for (const double way : {1.0, -1.0}) {
+      Machine machine;
+      machine.drive(way * 0.125);
+      machine.run_at(0.0);
+      const double least_mps = 0.3 * expected_mps(machine);
+      machine.valid.track_speed_mps[track] = least_mps;
+      assert_false(engine_is_doubtful(machine, 0.4));
+      machine.valid.track_speed_mps[track] = std::nextafter(least_mps, -way);
+      assert_true(engine_is_doubtful(machine, 0.4));
+    }
+  }
+}
+
+/// Above 0.1 m/s of (9).
+TEST(what_is_hardly_stroked_may_stand) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    Machine machine;
+    machine.drive(0.5);
+    machine.run_at(0.0);
+    machine.sent.pump[track] = machine.valid.pump_ratio[track] = 0.05 - 1e-9;
+    assert_false(engine_is_doubtful(machine, 0.4));
+    machine.sent.pump[track] = machine.valid.pump_ratio[track] = 0.05 + 1e-9;
+    assert_true(engine_is_doubtful(machine, 0.4));
+  }
+  Machine machine;
+  machine.drive(0.05);
+  machine.run_at(0.0);
+  assert_near(expected_mps(machine), kTrackStandsFrom_mps, 0.0);
+  assert_false(engine_is_doubtful(machine, 0.4));
+}
+
+/// By 0.1 m/s and 0.3 of a track's speed; below each track its own.
+TEST(the_body_has_to_go_along) {
+  for (const double way : {1.0, -1.0}) {
+    Machine machine;
+    machine.run_at(0.0);
+    machine.valid.velocity_mps = way * 0.1;
+    assert_true(engine_is_doubtful(machine, 0.4));
+    machine.valid.velocity_mps = std::nextafter(way * 0.1, way);
+    assert_false(engine_is_doubtful(machine, 0.4));
+    Machine turning;
+    turning.run_at(0.0);
+    turning.profile.body.half_gauge_m = 1.0;
+    turning.valid.course.yaw_rate_radps = way * 0.09;
+    assert_true(engine_is_doubtful(turning, 0.4));
+    turning.valid.velocity_mps = 0.05;  // One side 0.04, the other 0.14.
+    assert_false(engine_is_doubtful(turning, 0.4));
+  }
+}
+
+/// A line's pressure, in both, that pushes with so much, N.
+double pushing_pa(double force_n) { return 2.5e6 + force_n / (2.0 * 1e-4 / kTwoPi * 10.0 / 0.5); }
+
+/// With a twentieth of the weight beyond what the slope takes.
+TEST(a_load_may_hold_the_tracks) {
+  for (const double pitch_rad : {0.0, 0.25, -0.25}) {
+    Machine machine;
+    machine.profile.body.mass_kg = 1000.0;
+    machine.run_at(0.0);
+    machine.valid.pitch_rad = pitch_rad;
+    const double most_n = 1000.0 * kStandardGravity_mps2 * (0.05 + std::abs(std::sin(pitch_rad)));
+    machine.valid.line_pressure_pa = {pushing_pa(most_n - 1.0), pushing_pa(most_n - 1.0)};
+    assert_true(engine_is_doubtful(machine, 0.4));
+    machine.valid.line_pressure_pa = {pushing_pa(most_n + 1.0), pushing_pa(most_n + 1.0)};
+    assert_false(engine_is_doubtful(machine, 0.4));
+  }
+}
+
+/// Beyond what a track may be off for 0.3 s, 0.375 m/s and a tenth: both, and the body with them.
+/// Under pressure too.
+TEST(both_tracks_and_body_faster_than_the_transmission_are_astray) {
+  for (const double way : {1.0, -1.0}) {
+    for (const double line_pa : {2.5e6, 10e6}) {
+      Machine machine;
+      machine.drive(way * 0.5);
+      machine.valid.line_pressure_pa = {line_pa, line_pa};
+      machine.run_at(way * 1.5);
+      assert_true(machine.step(0.3).stops.empty());
+      const FaultSet stops = machine.step(1e-9).stops;
+      assert_true(stops.has(Fault::kTracksAstray));
+      assert_true(stops.has(Fault::kDisplacementRunaway));
+      assert_false(stops.has(Fault::kEngineDoubtful));
+      // Slower may be losses, or a load.
+      machine.run_at(way * 0.5);
+      assert_true(machine.step(0.4).stops.empty());
+      assert_true(machine.step(1e-9).tracks_disagree);
+    }
+    // As fast, the other way.
+    Machine reversed;
+    reversed.drive(way * 0.5);
+    reversed.run_at(-expected_mps(reversed));
+    assert_true(reversed.step(0.4).stops.has(Fault::kTracksAstray));
+  }
+}
+
+TEST(astray_is_both_to_one_side_with_the_body) {
+  for (unsigned track = 0; track < kTrackCount; ++track) {
+    Machine one;
+    one.run_at(1.5);
+    one.valid.track_speed_mps[track] = 1.45;
+    assert_true(one.step(0.4).stops.empty());
+  }
+  Machine alone;
+  alone.run_at(1.5);
+  alone.valid.velocity_mps = 0.9;
+  assert_true(alone.step(0.4).stops.empty());
+  // Turning on the spot, about as fast as it drives.
+  Machine apart;
+  apart.valid.track_speed_mps = {0.5, 1.5};
+  apart.profile.body.half_gauge_m = 1.0;
+  apart.valid.course.yaw_rate_radps = 0.5;
+  assert_true(apart.step(0.4).stops.empty());
+}
+
 /// Neither after motion, nor without a task, nor without an engine speed; nothing is kept.
 TEST(tracks_are_judged_where_they_can_be) {
   const auto off = [](Machine& machine) {
@@ -171,6 +318,14 @@ TEST(tracks_are_judged_where_they_can_be) {
   assert_false(machine.step(1.0).tracks_disagree);
   machine.valid.faults = {};
   assert_false(machine.step(0.01).tracks_disagree);
+  // Nor that they have stood.
+  Machine stood;
+  stood.run_at(0.0);
+  static_cast<void>(stood.step(0.3));
+  stood.task = DisplacementTask::kReturn;
+  static_cast<void>(stood.step(0.01));
+  stood.task = DisplacementTask::kFollow;
+  assert_true(stood.step(0.1).stops.empty());
 }
 
 TEST(the_transmission_speaks_for_both_tracks, Machine machine) {

@@ -36,6 +36,25 @@ TEST(spools_and_cylinders_stop, Machine stuck) {
   assert_stopped_by(Fault::kStrokeStuck, still.step());
 }
 
+/// Each drive that stands open with nothing in it; not while duties are tried, nor kept from then.
+TEST(a_drive_that_its_pump_does_not_feed_stops) {
+  for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    Machine machine;
+    machine.frozen = true;
+    machine.cycle.duty_ratio[axis] = machine.inputs.drive[axis].spool_ratio = 0.75;
+    machine.cycle.asked_mps[axis] = 0.02;
+    machine.run(4);
+    assert_well(machine.seen);
+    assert_stopped_by(Fault::kEngineDoubtful, machine.step());
+    machine.cycle.tried = true;
+    assert_false(machine.step().faults.has(Fault::kEngineDoubtful));
+    machine.cycle.tried = false;
+    machine.state.drives.tried_s = 0.0;
+    machine.run(4);
+    assert_false(machine.seen.faults.has(Fault::kEngineDoubtful));
+  }
+}
+
 TEST(pressures_and_swash_slow, Machine pressure) {
   pressure.step();
   pressure.frozen = true;

@@ -48,6 +48,21 @@ TEST(what_is_asked_is_said) {
   assert_true(axes.swing_ratio.state == RawState::kValid);
 }
 
+/// Held still, by an end or a key, they change by a step of the message, and never past the middle.
+TEST(levers_show_that_they_are_read) {
+  CommandFrames frames;
+  Request request = full_request();
+  request.axes = {1.0, -1.0, 0.008, 0.0};
+  for (int n = 0; n < 6; ++n) {
+    const bool less = n % 2 == 1;
+    const AxesMessage axes = AxesMessage::decode(frames.next(request, kEcho, 0)[1].data);
+    assert_near(axes.boom_or_up_ratio.value, less ? 0.992 : 1.0, 1e-12);
+    assert_near(axes.arm_or_forward_ratio.value, less ? -0.992 : -1.0, 1e-12);
+    assert_near(axes.bucket_or_attitude_ratio.value, less ? 0.0 : 0.008, 1e-12);
+    assert_near(axes.swing_ratio.value, 0.0, 0.0);
+  }
+}
+
 TEST(the_default_asks_for_nothing) {
   CommandFrames frames;
   const CommandPair pair = frames.next({}, kEcho, 0);

@@ -162,6 +162,58 @@ TEST(displacements_can_run_away_and_be_shown_wrong, DozerRig rig) {
   assert_near(last<dozer_bus::RightTransmission>(rig).motor_ratio.value, 0.44, 1e-4);
 }
 
+TEST(both_pumps_can_stay_and_say_so_or_not, DozerRig rig) {
+  DozerFaults& faults = rig.machine.faults();
+  const auto shown = [&] { return last<dozer_bus::LeftTransmission>(rig).pump_ratio.value; };
+  rig.pumps_for(100, true, 0.5, 0.25);
+  faults.pumps_stay = true;
+  rig.pumps_for(100, true, 0.25, 0.5);
+  assert_near(rig.left_pump(), 0.5, 1e-3);
+  assert_near(rig.right_pump(), 0.25, 1e-3);
+  assert_near(shown(), 0.5, 1e-3);
+  faults.pump_feedback_echoes = true;
+  rig.pumps_for(100, true, 0.25, 0.5);
+  assert_near(rig.left_pump(), 0.5, 1e-3);
+  assert_near(shown(), 0.25, 1e-4);
+  faults.pump_feedback_stuck = true;
+  faults.pumps_stay = false;
+  rig.pumps_for(100, true, 0.75, 0.75);
+  assert_near(rig.left_pump(), 0.75, 1e-3);
+  assert_near(shown(), 0.25, 1e-4);
+  faults.pump_feedback_stuck = faults.pump_feedback_echoes = false;
+  rig.pumps_for(1, true, 0.75, 0.75);
+  assert_near(shown(), 0.75, 1e-3);
+}
+
+/// By 0.1 s a second: after 1 s it is where it was 0.1 s before, and its velocity is that of then.
+TEST(the_pose_can_come_later_and_later, DozerRig rig) {
+  rig.pumps_for(300, false, 0.5, 0.5);
+  const auto late_m = [&] {
+    return rig.machine.plant().position_m() - last<dozer_bus::BodyPosition>(rig).position_m.value;
+  };
+  assert_near(late_m(), 0.0, 1e-3);
+  rig.machine.faults().pose.later_ps = 0.1;
+  rig.pumps_for(100, false, 0.5, 0.5);
+  assert_near(late_m(), 0.1 * rig.machine.plant().velocity_mps(), 2e-3);
+  rig.machine.faults().pose.later_ps = 0.0;
+  rig.pumps_for(1, false, 0.5, 0.5);
+  assert_near(late_m(), 0.0, 1e-3);
+}
+
+TEST(the_engine_s_speed_can_freeze, DozerRig rig) {
+  rig.pumps_for(10, false, 0.0, 0.0);
+  const auto shown = [&] { return last<dozer_bus::EEC1>(rig).engine_speed_radps.value; };
+  const double before_radps = shown();
+  rig.machine.faults().engine_speed.stuck = true;
+  rig.machine.faults().engine_ratio = 0.0;
+  rig.pumps_for(10, false, 0.0, 0.0);
+  assert_near(shown(), before_radps, 0.0);
+  assert_true(before_radps > 100.0);
+  rig.machine.faults().engine_speed = {};
+  rig.pumps_for(2, false, 0.0, 0.0);
+  assert_near(shown(), 0.0, 0.0);
+}
+
 TEST(track_speeds_can_be_shown_wrong, DozerRig rig) {
   rig.pumps_for(100, false, 0.5, 0.5);
   rig.machine.faults().path[kLeft].speed.stuck = true;

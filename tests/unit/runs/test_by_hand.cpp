@@ -88,6 +88,29 @@ TEST(a_line_ends_where_a_cylinder_does) {
   assert_near(rig.tip().y_m, kStart.y_m, 0.030);
 }
 
+/// A station that has promised to show that it reads its levers, and one that does not keep it.
+TEST(levers_that_stand_still_stop_it) {
+  machines::SimulatedExcavator machine = test::excavator();
+  machine.profile.safety.levers_alive_s = 0.1;
+  for (const Task task : {Task::kJog, Task::kCoordinated}) {
+    HandsRig rig(machine, start_m(), task);
+    rig.hands.alive = true;
+    rig.work();
+    for (const double lever : {1.0, 0.4, 0.0, -0.4}) {
+      rig.hands.lever_ratio[kForward] = lever;
+      rig.run(1.0);
+      assert_int_equal(rig.status().fault, Fault::kNone);
+    }
+    rig.hands.alive = false;
+    rig.run(0.15);
+    assert_int_equal(rig.status().fault, Fault::kOperatorMissing);
+    assert_true(rig.neutral());
+    // Not at its task, they may stand.
+    rig.work_again();
+    assert_int_equal(rig.status().fault, Fault::kNone);
+  }
+}
+
 /// One at its end lets the others go on.
 TEST(each_drive_jogs_to_its_own_end) {
   HandsRig rig(test::excavator(), start_m(), Task::kJog);
