@@ -292,5 +292,10 @@ TEST(one_that_is_starved_is_enough) {
     drives.moves_mps[1 - starves] = drives.asked_mps[1 - starves];
     drives.seen[starves].cap_pressure_pa = drives.seen[starves].rod_pressure_pa = 0.0;
     assert_in_range(drives.cycles_until_seen(), 30, 33);
+    // The other one stands too, and is not far behind.
+    Drives stand;
+    stand.asked_mps = {0.01, -0.01};
+    stand.seen[starves].cap_pressure_pa = stand.seen[starves].rod_pressure_pa = 0.0;
+    assert_in_range(stand.cycles_until_seen(), 30, 33);
   }
 }
