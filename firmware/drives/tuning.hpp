@@ -182,7 +182,7 @@ inline constexpr double kFlowSpreads = 2.75;
 inline constexpr double kFlowGalleryBand = 0.33;
 /// Pressure by which a sensor's zero may be off. [Pa; chosen: 1.0e6 tried before]
 inline constexpr double kFlowZero_pa = 1.2e6;
-/// Most pressure of the return line. [Pa; chosen: with 0.2e6 2 of 1500 sound draws stopped]
+/// Most pressure of the return line. [Pa; chosen: 0.2e6 tried, it stops 2 of 1500 sound draws]
 inline constexpr double kFlowReturn_pa = 0.5e6;
 /// Share by which the flow of a valve that meters at its inlet may be off. [-; chosen: not tried]
 inline constexpr double kFlowSupplyBand = 0.2;
