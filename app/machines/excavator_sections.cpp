@@ -288,13 +288,13 @@ SafetyProfile read_safety(TomlReader& reader) {
                                          "allowed error of a pump's swash, of full");
   safety.pressure_rail_pa = reader.number("sensors.pressure_range", {1e6, 1e8, "Pa"},
                                           "upper end of the pressure sensors");
-  constexpr double kLeastAlive_s = 0.06;
+  constexpr double kLeastAlive_s = 0.1;
   safety.levers_alive_s =
       reader.number_or(0.0, "safety.levers_alive", {0.0, 2.0, "s"},
                        "the operator's station changes what it sends of levers off their middle "
                        "at least so often, as graben operate does; 0: it need not");
   if (safety.levers_alive_s > 0.0 && safety.levers_alive_s < kLeastAlive_s) {
-    reader.fail("safety.levers_alive", fmt::format("{} s; allowed: 0, or three frames of levers, "
+    reader.fail("safety.levers_alive", fmt::format("{} s; allowed: 0, or five frames of levers, "
                                                    "{} s, and more",
                                                    safety.levers_alive_s, kLeastAlive_s));
   }

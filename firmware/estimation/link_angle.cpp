@@ -98,8 +98,12 @@ void watch_gyro(const AngleNoise& noise, const Eigen::Vector2d& at_m,
   const Eigen::Vector2d expected = turned_by(
       acceleration_mps2 + Eigen::Vector2d(0.0, kStandardGravity_mps2), -state.then.angle_rad);
   const Eigen::Vector2d across(-at_m.y() / lever_m, at_m.x() / lever_m);
-  const double more_mps2 = across.dot(expected - state.then.force_mps2);
+  const double whole_mps2 = across.dot(expected - state.then.force_mps2);
   const double period_s = state.last.period_s;
+  // An accelerometer's offset stays; a jump does not. The mean of what there is, until it is long.
+  state.steady_s = std::min(state.steady_s + period_s, kGyroSteadyTime_s);
+  state.steady_mps2 += std::min(1.0, period_s / state.steady_s) * (whole_mps2 - state.steady_mps2);
+  const double more_mps2 = whole_mps2 - state.steady_mps2;
   state.jumps_radps += period_s * more_mps2 / lever_m -
                        std::min(1.0, period_s / kGyroJumpTime_s) * state.jumps_radps;
   state.jumped_radps +=

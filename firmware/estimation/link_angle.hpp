@@ -51,6 +51,9 @@ struct LinkAngle {
   AngleMotion then;           ///< At the reading before `last`.
   /// Low-passed: the force's direction against the angle; what hits the link counts little.
   double off_rad = 0.0;
+  /// Low-passed: the force across the lever that neither gyro nor gravity explains.
+  double steady_mps2 = 0.0;
+  double steady_s = 0.0;  ///< Since when, no longer than it matters.
   /// What the gyro's rate has changed more than the force says that the link was turned, lately.
   double jumps_radps = 0.0;
   double jumped_radps = 0.0;  ///< The same, low-passed: what shakes goes to and fro.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/excavator/safety/tuning.hpp"
+#include "firmware/machine/drive_bank.hpp"
 
 namespace graben {
 namespace {
@@ -33,7 +34,9 @@ bool watch_supply(const DriveRow& drive, const ValidDrive& seen, double asked_mp
   const double newest = period_s / (period_s + kSupplySpeed_s);
   state.speed_mps += newest * (moved_mps - state.speed_mps);
   state.asked_mps += newest * (asked_mps - state.asked_mps);
-  const double most_s = kSupplyStarved_s + drive.watch.spool_late_s;
+  const double late_s =
+      drive.watch.senses_spool ? drive.watch.spool_late_s : spool_arrives_s(drive);
+  const double most_s = kSupplyStarved_s + late_s;
   const double change_s =
       is_starved(drive, seen, asked_mps, state.speed_mps) ? period_s : -period_s;
   state.starved_s = std::clamp(state.starved_s + change_s, 0.0, most_s + period_s);
@@ -51,7 +54,9 @@ bool watch_supplies(DriveRows drives, Span<const ValidDrive> seen, Span<const do
     SupplyState& drive = state.drive[static_cast<unsigned>(i)];
     starved = watch_supply(drives[i], seen[i], asked_mps[i], period_s, drive) || starved;
     const double most_mps = std::abs(drive.asked_mps);
-    if (most_mps > kSupplyLeastAsked_mps) {
+    // What a load may hold, or an open bypass, stands without any fault of the engine.
+    const bool is_told = seen[i].load_known && drives[i].spool.bypass_closes_at == 0.0;
+    if (is_told && most_mps > kSupplyLeastAsked_mps) {
       const double along_mps = std::copysign(1.0, drive.asked_mps) * drive.speed_mps;
       ++asked;
       stand = stand && along_mps < kSupplyStandsShare * most_mps;

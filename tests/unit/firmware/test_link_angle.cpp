@@ -26,6 +26,7 @@ struct Body {
   double omega_radps = 3.0;
   double bias_radps = 0.0;
   double noise = 0.0;
+  double offset_mps2 = 0.0;  ///< Of the accelerometer, across the arm.
   std::mt19937 engine{7};
   std::normal_distribution<double> normal{0.0, 1.0};
 
@@ -46,7 +47,8 @@ struct Body {
     const Eigen::Vector2d force = acceleration(t) + Eigen::Vector2d(0.0, kGravity);
     return {kPeriod_s, rate(t) + bias_radps + noise * kNoise.rate_radps * normal(engine),
             turned(force.x(), force.y(), -angle(t)) +
-                noise * kNoise.force_mps2 * Eigen::Vector2d(normal(engine), normal(engine)),
+                noise * kNoise.force_mps2 * Eigen::Vector2d(normal(engine), normal(engine)) +
+                Eigen::Vector2d(0.0, offset_mps2),
             0.0};
   }
 };
@@ -193,6 +195,47 @@ TEST(a_gyro_that_jumps_contradicts, Body body) {
   }
 }
 
+AngleReading shown(double rate_radps, double force_mps2) {
+  return {kPeriod_s, rate_radps, {force_mps2, 0.0}, 0.0};
+}
+
+/// 60 mg, on an arm that is level: a jump is seen beside it.
+TEST(an_offset_of_the_force_is_no_jump, Body body) {
+  body.noise = 1.0;
+  body.middle_rad = 0.0;
+  for (const double side : {1.0, -1.0}) {
+    body.offset_mps2 = side * 0.6;
+    assert_true(seen_after_s(body, 0.0, 60.0) > 60.0);
+    assert_true(seen_after_s(body, 0.07, 1.0) < 0.10);
+    assert_true(seen_after_s(body, -0.07, 1.0) < 0.10);
+  }
+}
+
+/// The first is all offset, then the mean, later it follows what stays.
+TEST(what_stays_is_an_offset) {
+  LinkAngle state;
+  begin_angle(kNoise, shown(0.0, kGravity), state);
+  state.then.angle_rad = 0.0;
+  state.last.period_s = 0.25;
+  const auto look = [&](double more_mps2) {
+    state.then.force_mps2 = {0.0, kGravity - more_mps2};
+    watch_gyro(kNoise, {2.0, 0.0}, Eigen::Vector2d::Zero(), state);
+  };
+  look(0.5);
+  assert_near(state.steady_mps2, 0.5, 1e-12);
+  assert_near(state.jumps_radps, 0.0, 1e-12);
+  look(1.5);
+  assert_near(state.steady_mps2, 1.0, 1e-12);
+  assert_near(state.jumps_radps, 0.25 * 0.5 / 2.0, 1e-12);
+  state.steady_s = kGyroSteadyTime_s;
+  look(5.0);
+  assert_near(state.steady_mps2, 1.0 + 0.25 / kGyroSteadyTime_s * 4.0, 1e-12);
+  assert_near(state.steady_s, kGyroSteadyTime_s, 0.0);
+  state.last.period_s = 3.0 * kGyroSteadyTime_s;  // No further than all of it.
+  look(7.0);
+  assert_near(state.steady_mps2, 7.0, 1e-12);
+}
+
 /// Where the force is noisier, more of it is.
 TEST(a_noisy_force_tells_less, Body body) {
   const AngleNoise noisy = {kNoise.rate_radps, kNoise.bias_radps, 2.0};
@@ -229,10 +272,6 @@ TEST(falls_without_direction, LinkAngle state) {
     correct_angle(kNoise, Eigen::Vector2d(0.0, -kGravity), state);
   }
   assert_near(state.angle_rad, before, 1e-12);
-}
-
-AngleReading shown(double rate_radps, double force_mps2) {
-  return {kPeriod_s, rate_radps, {force_mps2, 0.0}, 0.0};
 }
 
 TEST(its_bounds_are_no_contradiction, LinkAngle state) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "firmware/excavator/safety/tuning.hpp"
+#include "firmware/machine/drive_bank.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 constexpr double kPeriod_s = 0.0625;
@@ -62,6 +63,16 @@ TEST(one_that_stands_unfed_gets_nothing) {
 TEST(a_spool_that_is_told_may_be_late, Drive drive) {
   drive.row.watch.spool_late_s = 0.5;
   assert_false(drive.step(0.8));
+  assert_true(drive.step(1e-9));
+}
+
+TEST(a_spool_that_is_not_measured_has_to_arrive, Drive drive) {
+  drive.row.watch.senses_spool = false;
+  drive.row.watch.settle_s = 0.125;
+  drive.row.answer.retract.dead_time_s = 0.375;
+  const double arrives_s = spool_arrives_s(drive.row);
+  assert_true(arrives_s > 0.499);
+  assert_false(drive.step(kSupplyStarved_s + arrives_s));
   assert_true(drive.step(1e-9));
 }
 
@@ -283,6 +294,18 @@ TEST(what_is_not_asked_or_held_may_stand) {
   held.held = true;
   assert_int_equal(held.cycles_until_seen(), 0);
   assert_near(held.state.unmoved_m, 0.0, 0.0);
+}
+
+/// Whose load is not known may be held by it; under an open bypass it waits for its line.
+TEST(what_may_stand_is_not_counted) {
+  for (unsigned which = 0; which < 2; ++which) {
+    Drives unknown;
+    unknown.seen[which].load_known = false;
+    assert_int_equal(unknown.cycles_until_seen(), 0);
+    Drives waits;
+    waits.row[which].spool.bypass_closes_at = 0.5;
+    assert_int_equal(waits.cycles_until_seen(), 0);
+  }
 }
 
 /// Either drive, while the other one goes.
