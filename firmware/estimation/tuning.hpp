@@ -49,8 +49,8 @@ inline constexpr double kAngleContradicts_rad = 0.05;
 /// nearer, noise of the force is as much as a gyro's jump; 0.3 tried, a bucket dug in air came to
 /// its bound]
 inline constexpr double kGyroLeastLever_m = 1.0;
-/// Time constant of the force that stays, an accelerometer's offset. [s; chosen: 1.0 tried, a bucket
-/// came 0.28 m off by a gyro that jumped]
+/// Time constant of the force that stays, an accelerometer's offset. [s; chosen: 1.0 tried, a
+/// bucket came 0.28 m off by a gyro that jumped]
 inline constexpr double kGyroSteadyTime_s = 4.0;
 /// Time constant with which what a gyro has jumped is forgotten. [s; chosen: not tried]
 inline constexpr double kGyroJumpTime_s = 0.2;
