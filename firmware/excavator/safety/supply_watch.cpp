@@ -54,12 +54,15 @@ bool watch_supplies(DriveRows drives, Span<const ValidDrive> seen, Span<const do
     SupplyState& drive = state.drive[static_cast<unsigned>(i)];
     starved = watch_supply(drives[i], seen[i], asked_mps[i], period_s, drive) || starved;
     const double most_mps = std::abs(drive.asked_mps);
-    // What a load may hold, or an open bypass, stands without any fault of the engine.
-    const bool is_told = seen[i].load_known && drives[i].spool.bypass_closes_at == 0.0;
-    if (is_told && most_mps > kSupplyLeastAsked_mps) {
+    if (most_mps > kSupplyLeastAsked_mps) {
       const double along_mps = std::copysign(1.0, drive.asked_mps) * drive.speed_mps;
-      ++asked;
       stand = stand && along_mps < kSupplyStandsShare * most_mps;
+      // One that goes is fed. One that stands tells nothing under an open bypass, or where its load
+      // is not known.
+      if (!seen[i].load_known || drives[i].spool.bypass_closes_at > 0.0) {
+        continue;
+      }
+      ++asked;
       behind_mps = std::max(behind_mps, most_mps - along_mps);
       const SpoolAnswer& answer = drives[i].answer.towards(drive.asked_mps);
       answers_s = std::max(answers_s, answer.dead_time_s + answer.lag_s);

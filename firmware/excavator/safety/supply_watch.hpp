@@ -37,8 +37,9 @@ struct SuppliesState {
 
 /// True: some drive gets nothing, or all that are asked, two or more, stand and are pushed back
 /// until the one that is farthest behind is so by 25 mm, for 0.3 s and as long as a valve takes to
-/// answer: pumps that feed any would move one. `held`: a load holds a drive against its pump, and
-/// how they stand says nothing.
+/// answer: pumps that feed any would move one. A drive whose load is not known, or whose spool
+/// leaves a bypass open, is none of the two. `held`: a load holds a drive against its pump, and how
+/// they stand says nothing.
 [[nodiscard]] bool watch_supplies(DriveRows drives, Span<const ValidDrive> seen,
                                   Span<const double> asked_mps, bool held, double period_s,
                                   SuppliesState& state);

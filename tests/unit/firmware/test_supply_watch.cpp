@@ -296,6 +296,24 @@ TEST(what_is_not_asked_or_held_may_stand) {
   assert_near(held.state.unmoved_m, 0.0, 0.0);
 }
 
+/// Two stand; the third's load is not known, but it goes, so its pump feeds it.
+TEST(one_that_goes_is_fed_whatever_its_load) {
+  const Drives two;
+  const std::array<DriveRow, 3> row = {two.row[0], two.row[1], two.row[0]};
+  std::array<ValidDrive, 3> seen = {two.seen[0], two.seen[1], two.seen[0]};
+  seen[2].load_known = false;
+  const std::array<double, 3> asked_mps = {0.1, -0.1, 0.1};
+  for (const bool goes : {true, false}) {
+    SuppliesState state;
+    bool stands = false;
+    for (int n = 0; n < 100; ++n) {
+      seen[2].stroke_m += goes ? 0.001 : 0.0;
+      stands = watch_supplies({row.data(), 3}, seen, asked_mps, false, 0.01, state);
+    }
+    assert_int_equal(stands, !goes);
+  }
+}
+
 /// Whose load is not known may be held by it; under an open bypass it waits for its line.
 TEST(what_may_stand_is_not_counted) {
   for (unsigned which = 0; which < 2; ++which) {
