@@ -292,7 +292,8 @@ SafetyProfile read_safety(TomlReader& reader) {
   safety.levers_alive_s =
       reader.number_or(0.0, "safety.levers_alive", {0.0, 2.0, "s"},
                        "the operator's station changes what it sends of levers off their middle "
-                       "at least so often, as graben operate does; 0: it need not");
+                       "at least so often, 0.1 s or more, as graben operate does; "
+                       "0: it need not");
   if (safety.levers_alive_s > 0.0 && safety.levers_alive_s < kLeastAlive_s) {
     reader.fail("safety.levers_alive", fmt::format("{} s; allowed: 0, or five frames of levers, "
                                                    "{} s, and more",

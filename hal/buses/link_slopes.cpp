@@ -2,9 +2,8 @@
 #include "hal/buses/link_slopes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "firmware/numeric/constants.hpp"
+#include "firmware/numeric/triangle.hpp"
 
 namespace graben {
 namespace {
@@ -14,8 +13,7 @@ Signal<double> joint_of(const Signal<double>& outer, const Signal<double>& inner
   Signal<double> joint{0.0, std::min(outer.validity, inner.validity),
                        std::min(outer.stamp_us, inner.stamp_us)};
   if (joint.validity == Validity::kValid) {
-    const double beyond_rad = outer.value - inner.value - middle_rad;
-    joint.value = middle_rad + std::remainder(beyond_rad, 2.0 * kPi);
+    joint.value = wrap_near(outer.value - inner.value, middle_rad);
   }
   return joint;
 }

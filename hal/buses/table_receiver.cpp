@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/numeric/constants.hpp"
+#include "firmware/numeric/triangle.hpp"
 
 namespace graben {
 namespace {
@@ -75,7 +75,7 @@ bool is_within(const TableSource& source, const Signal<double>& shown) {
 /// Of a slope the shorter way round: a sensor may count from -180 to 180 degrees.
 double change_of(const TableSource& source, double from, double to) {
   const double change = to - from;
-  return std::abs(source.place == SourcePlace::kSlope ? std::remainder(change, 2.0 * kPi) : change);
+  return std::abs(source.place == SourcePlace::kSlope ? wrap_near(change, 0.0) : change);
 }
 
 /// Of a source that is judged where its message is: its range says what holds, not what may come.

@@ -100,6 +100,21 @@ class EdgeOff {
   runs::GradeTruth truth_;
 };
 
+/// It stops, and its edge comes no further off the grade until then than is allowed.
+void expect_stop_on_grade(const Stop& stop, Trial<Dozer>& trial) {
+  constexpr double kMostOff_m = 0.15;
+  Rig<Dozer>& rig = *trial.rig;
+  EdgeOff off(rig);
+  rig.run_until(stop.detect_us, [&] {
+    off.look();
+    return !in_motion(rig.mode());
+  });
+  trial.outcome.harm = off.most_m;
+  trial.outcome.harm_unit = "m edge";
+  trial.check(off.most_m <= kMostOff_m, fmt::format("edge {:.0f} mm off", 1e3 * off.most_m));
+  trial.expect_stop(stop);
+}
+
 /// Both pumps stay where they are as they are to go slower: their feedback says so, or shows what
 /// they are told.
 void pumps_stay(Trial<Dozer>& trial) {
@@ -118,15 +133,7 @@ void pumps_stay(Trial<Dozer>& trial) {
     faults.pumps_stay = false;
     faults.pump_feedback_echoes = false;
   };
-  EdgeOff off(rig);
-  rig.run_until(stop.detect_us, [&] {
-    off.look();
-    return !in_motion(rig.mode());
-  });
-  trial.outcome.harm = off.most_m;
-  trial.outcome.harm_unit = "m edge";
-  trial.check(off.most_m <= 0.15, fmt::format("edge {:.0f} mm off", 1e3 * off.most_m));
-  trial.expect_stop(stop);
+  expect_stop_on_grade(stop, trial);
 }
 
 /// The whole pose comes later and later, by 20 ms each second.
@@ -136,15 +143,7 @@ void pose_later(Trial<Dozer>& trial) {
   pose.later_ps = 0.02;
   Stop stop{rig.at_us(), {Fault::kPoseDisagrees}, 15 * kSecondUs};
   stop.cure = [&pose] { pose = {}; };
-  EdgeOff off(rig);
-  rig.run_until(stop.detect_us, [&] {
-    off.look();
-    return !in_motion(rig.mode());
-  });
-  trial.outcome.harm = off.most_m;
-  trial.outcome.harm_unit = "m edge";
-  trial.check(off.most_m <= 0.15, fmt::format("edge {:.0f} mm off", 1e3 * off.most_m));
-  trial.expect_stop(stop);
+  expect_stop_on_grade(stop, trial);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/excavator/safety/tuning.hpp"
-#include "firmware/numeric/constants.hpp"
+#include "firmware/numeric/triangle.hpp"
 
 namespace graben {
 namespace {
@@ -16,7 +16,7 @@ Signal<double> second_travel(const ExcavatorProfile& profile, const ExcavatorInp
   }
   const double lever_m = profile.swing.lever_m;
   Signal<double> second = inputs.second_swing_rad;
-  second.value = first_m + lever_m * std::remainder(second.value - first_m / lever_m, kTwoPi);
+  second.value = lever_m * wrap_near(second.value, first_m / lever_m);
   return second;
 }
 
