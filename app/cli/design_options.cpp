@@ -14,7 +14,8 @@ namespace graben::cli {
 void add_design_options(CLI::App& command, design::DesignSource& source) {
   command.add_option(
       "--design", source.file,
-      "Instead of the profile's design, a file or a shipped one (trench.xml, banked.xml, curved.xml): "
+      "Instead of the profile's design, a file or a shipped one (trench.xml, banked.xml, "
+      "curved.xml): "
       "a LandXML surface (.xml), points x y z (.xyz, .csv, .pts), "
       "or any other text with x along the track and height over the plane, a line a corner, and "
       "where the blade tilts the slope across and the track's curvature");

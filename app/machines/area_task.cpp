@@ -163,11 +163,8 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
   area.depth_far_m = reader.number("area.depth", kDepth, "of the design under the ground");
   area.depth_near_m = area.depth_far_m;
   const auto lists = [&](const char* key) { return reader.lists() && reader.has(key); };
-  if (area.kind == AreaKind::kSlope) {
+  if (area.kind == AreaKind::kSlope || reader.has("area.depth_near")) {
     area.depth_near_m = reader.number("area.depth_near", kDepth, kDepthNearHelp);
-  } else if (reader.has("area.depth_near") || lists("area.depth_near")) {
-    area.depth_near_m =
-        reader.number_or(area.depth_far_m, "area.depth_near", kDepth, kDepthNearHelp);
   }
   area.touches = reader.boolean_or(true, "area.touch",
                                    "the ground is first felt for, and heights counted from it");

@@ -158,6 +158,19 @@ void remove_swing(toml::table& root) {
   }
 }
 
+/// The experiment's line before a machine that can't swing, as far out as it was.
+void lay_straight(toml::table& root) {
+  for (const char* end : {"experiment.line.from.position", "experiment.line.to.position"}) {
+    toml::array* at = root.at_path(end).as_array();
+    if (at == nullptr || at->size() != 3) {
+      continue;
+    }
+    const double out_m = std::hypot(at->get(0)->value_or(0.0), at->get(1)->value_or(0.0));
+    at->get(0)->as_floating_point()->get() = out_m;
+    at->get(1)->as_floating_point()->get() = 0.0;
+  }
+}
+
 /// The profile of the same machine with pumps of this kind.
 fs::path file_of_kind(const ProfileDocument& like, int kind) {
   std::string stem = like.file.stem().string();
@@ -262,6 +275,7 @@ std::optional<ProfileDocument> simulation_of(const ProfileDocument& like,
     made.root.erase("swing");
     sensors.erase("swing_resolution");
     sensors.erase("swing_bias");
+    lay_straight(made.root);
     return made;
   }
   const double weights = weight_t(like) / kWithSwing_t;

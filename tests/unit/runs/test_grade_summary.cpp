@@ -164,24 +164,24 @@ TEST(what_is_left_heads_a_job_in_passes) {
   summary.over_cut_m = 0.049;
   assert_string_equal(figures_of(summary).values.front().info->name, "max_error_true_m");
   summary.passes = 4;
-  const RunFigures figures = figures_of(summary);
+  const runs::RunFigures figures = figures_of(summary);
   assert_string_equal(figures.values[0].info->name, "ground_left_m");
   assert_string_equal(figures.values[1].info->name, "over_cut_m");
   assert_string_equal(figures.values[2].info->name, "passes");
   assert_string_equal(figures.values[3].info->name, "max_error_true_m");
-  assert_int_equal(figures.values.size(), grade_figures().size());
+  assert_int_equal(figures.values.size(), runs::grade_figures().size());
 }
 
 TEST(a_grade_out_of_tolerance_is_said) {
   GradeSummary summary;
   summary.ground_left_m = 0.02;
   summary.over_cut_m = 0.02;
-  assert_string_equal(out_of_tolerance(summary, 0.02).c_str(), "");
+  assert_string_equal(runs::out_of_tolerance(summary, 0.02).c_str(), "");
   summary.ground_left_m = 0.039;
-  assert_string_equal(out_of_tolerance(summary, 0.02).c_str(),
+  assert_string_equal(runs::out_of_tolerance(summary, 0.02).c_str(),
                       "the grade is out of tolerance: up to 39 mm left above the design and 20 mm "
                       "cut below it; grade.tolerance is 20 mm");
   summary.ground_left_m = 0.0;
   summary.over_cut_m = 0.049;
-  assert_non_null(strstr(out_of_tolerance(summary, 0.02).c_str(), "49 mm cut below"));
+  assert_non_null(strstr(runs::out_of_tolerance(summary, 0.02).c_str(), "49 mm cut below"));
 }
