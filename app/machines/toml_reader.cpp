@@ -131,18 +131,20 @@ std::uint32_t TomlReader::hash() const {
   return hash.value();
 }
 
-/// Of the same key, or of one beside it in its table: this one is judged by a value that is none.
-bool TomlReader::follows_from_another(const std::string& key) const {
+/// Of the same key, or against a number beside it in its table: judged by a value that is none.
+bool TomlReader::follows_from_another(const std::string& key, const std::string& what) const {
   const std::size_t dot = key.rfind('.');
   const std::string table = dot == std::string::npos ? "" : key.substr(0, dot + 1);
+  const auto says = [&](const char* words) { return what.find(words) != std::string::npos; };
+  const bool compares = !table.empty() && (says("than ") || says("at most") || says("at least"));
   return std::any_of(unread_.begin(), unread_.end(), [&](const std::string& other) {
-    return other.compare(0, key.size(), key) == 0 ||
-           (!table.empty() && other.compare(0, table.size(), table) == 0);
+    return other == key || other.compare(0, key.size() + 1, key + "[") == 0 ||
+           (compares && other.compare(0, table.size(), table) == 0);
   });
 }
 
 void TomlReader::fail(const std::string& key, const std::string& what) {
-  if (listed_has_.has_value() || follows_from_another(key)) {
+  if (listed_has_.has_value() || follows_from_another(key, what)) {
     return;
   }
   const toml::node* node = root_.at_path(key).node();

@@ -99,7 +99,7 @@ class TomlReader {
   void note(const std::string& key, std::vector<double> values);
   double checked(const toml::node& node, const std::string& key, const Range& range);
   Provenance provenance_of(const std::string& key, const toml::node& told);
-  [[nodiscard]] bool follows_from_another(const std::string& key) const;
+  [[nodiscard]] bool follows_from_another(const std::string& key, const std::string& what) const;
   void refuse_unknown_in(const toml::node& node, const std::string& path);
 
   /// Its line, and the file unless it is the one that is read.

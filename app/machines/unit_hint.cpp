@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace graben::machines {
@@ -21,7 +21,6 @@ constexpr OtherUnit kOthers[] = {{"rad/s", "rpm", kPi / 30.0},
                                  {"rad/s", "degrees", kPi / 180.0},
                                  {"rad", "degrees", kPi / 180.0},
                                  {"m", "mm", 1e-3},
-                                 {"m", "cm", 1e-2},
                                  {"m2", "mm2", 1e-6},
                                  {"m2", "cm2", 1e-4},
                                  {"m3", "L", 1e-3},
@@ -45,6 +44,10 @@ std::string unit_hint(double value, double least, double most, const std::string
   std::string text;
   for (const OtherUnit& other : kOthers) {
     const double si = value * other.per_si;
+    // Nobody writes a length below that in mm: it is a slip of another kind.
+    if (other.si == std::string("m") && std::abs(value) < 100.0) {
+      continue;
+    }
     // Angles' own rates and accelerations are written in degrees, too.
     const bool is_its = unit == other.si || (std::string(other.si) == "rad" && unit != "rad/s" &&
                                              unit.compare(0, 4, "rad/") == 0);
