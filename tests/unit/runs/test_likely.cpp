@@ -218,6 +218,5 @@ TEST(a_simulation_of_another_machine_is_said) {
   const std::vector<std::string> said = said_of(folder() / "other.toml", true);
   fs::remove_all(folder());
   assert_int_equal(said.size(), 1);
-  print_message("%s\n", said.front().c_str());
   assert_non_null(strstr(said.front().c_str(), "bucket.length: 1.3 m, where the machine that is"));
 }
