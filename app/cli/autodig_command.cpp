@@ -102,7 +102,8 @@ void run_task(const TaskCommand& options) {
   }
   fmt::print("{}{}{}log     {}\nreport  {}\n", runs::steps_text(summary),
              machines::raised_text(task.request, task.result),
-             runs::figures_text(runs::figures_of(summary)), run.log_file.string(), report.string());
+             runs::figures_text(runs::headed_figures(summary)), run.log_file.string(),
+             report.string());
   if (summary.over_cut_max_m > kOverCut_m) {
     fmt::print("the edge was up to {:.0f} mm under the design\n", 1e3 * summary.over_cut_max_m);
   }

@@ -118,7 +118,7 @@ void grade(const GradeCommand& told) {
   }
   runs::GradeSummary summary = runs::summarise(machine, result);
   summary.limit_share = runs::logged_limit_shares(run.log_file);
-  const runs::RunFigures figures = runs::figures_of(summary);
+  const runs::RunFigures figures = runs::headed_figures(summary);
   reports::write_grade_report({report, scope::scope_page()}, run.log_file, machine, result, summary,
                               subtitle_of(options, machine));
   if (!options.summary.empty()) {

@@ -154,8 +154,11 @@ struct AutodigSummary {
 
 [[nodiscard]] AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result);
 [[nodiscard]] const FigureTable<AutodigSummary>& autodig_figures();
-/// Of an area what was made of it stands first.
-[[nodiscard]] RunFigures figures_of(const AutodigSummary& summary);
+[[nodiscard]] inline RunFigures figures_of(const AutodigSummary& summary) {
+  return figures_of(autodig_figures(), summary, "share of time active per limit of lambda");
+}
+/// The same for who reads one run: of an area what was made of it stands first.
+[[nodiscard]] RunFigures headed_figures(const AutodigSummary& summary);
 
 /// A line for each step as it was done.
 [[nodiscard]] std::string steps_text(const AutodigSummary& summary);

@@ -265,9 +265,8 @@ const FigureTable<AutodigSummary>& autodig_figures() {
   return all;
 }
 
-RunFigures figures_of(const AutodigSummary& summary) {
-  RunFigures figures =
-      figures_of(autodig_figures(), summary, "share of time active per limit of lambda");
+RunFigures headed_figures(const AutodigSummary& summary) {
+  RunFigures figures = figures_of(summary);
   if (std::isfinite(summary.built.within_ratio)) {
     lead_with({"built_within_ratio", "built_high_m", "built_low_m", "built_left_m3",
                "built_over_cut_m3", "over_cut_max_m"},

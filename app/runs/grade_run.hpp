@@ -117,8 +117,11 @@ inline constexpr double kSpeedResolution_mps = 0.02;
 [[nodiscard]] GradeSummary summarise(const machines::SimulatedDozer& machine,
                                      const GradeResult& result);
 [[nodiscard]] const FigureTable<GradeSummary>& grade_figures();
-/// Of a job in passes what it leaves stands first.
-[[nodiscard]] RunFigures figures_of(const GradeSummary& summary);
+[[nodiscard]] inline RunFigures figures_of(const GradeSummary& summary) {
+  return figures_of(grade_figures(), summary, "share of time active per limit of the speed");
+}
+/// The same for who reads one run: of a job in passes what it leaves stands first.
+[[nodiscard]] RunFigures headed_figures(const GradeSummary& summary);
 
 /// What is left out of the design's tolerance, with its figures; empty: nothing is.
 [[nodiscard]] std::string out_of_tolerance(const GradeSummary& summary, double tolerance_m);

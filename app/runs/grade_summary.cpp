@@ -248,9 +248,8 @@ const FigureTable<GradeSummary>& grade_figures() {
   return all;
 }
 
-RunFigures figures_of(const GradeSummary& summary) {
-  RunFigures figures =
-      figures_of(grade_figures(), summary, "share of time active per limit of the speed");
+RunFigures headed_figures(const GradeSummary& summary) {
+  RunFigures figures = figures_of(summary);
   if (summary.passes > 1) {
     lead_with({"ground_left_m", "over_cut_m", "passes"}, figures);
   }

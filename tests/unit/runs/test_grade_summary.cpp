@@ -162,14 +162,16 @@ TEST(what_is_left_heads_a_job_in_passes) {
   summary.max_error_true_m = 1.106;
   summary.ground_left_m = 0.039;
   summary.over_cut_m = 0.049;
-  assert_string_equal(figures_of(summary).values.front().info->name, "max_error_true_m");
+  assert_string_equal(headed_figures(summary).values.front().info->name, "max_error_true_m");
   summary.passes = 4;
-  const runs::RunFigures figures = figures_of(summary);
+  const runs::RunFigures figures = headed_figures(summary);
   assert_string_equal(figures.values[0].info->name, "ground_left_m");
   assert_string_equal(figures.values[1].info->name, "over_cut_m");
   assert_string_equal(figures.values[2].info->name, "passes");
   assert_string_equal(figures.values[3].info->name, "max_error_true_m");
   assert_int_equal(figures.values.size(), runs::grade_figures().size());
+  // A campaign's columns stand in the table's order.
+  assert_string_equal(figures_of(summary).values[0].info->name, "max_error_true_m");
 }
 
 TEST(a_grade_out_of_tolerance_is_said) {
