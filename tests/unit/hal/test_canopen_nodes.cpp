@@ -181,13 +181,15 @@ TEST(a_port_lets_heartbeats_and_emergencies_through) {
   assert_int_equal(found, 2);
 }
 
-/// Encoders on boom and arm, both node 11, each on its own bus.
+/// Encoders on boom and arm, both node 11, each on its own bus and with a message of its own
+/// length.
 BusTable two_encoders() {
   BusTable made = encoder();
   made.node_count = 2;
   made.node[1] = {kNode, 0, 250 * kMillisecondUs};
   made.message_count = 2;
   made.rule[1] = made.rule[0];
+  made.rule[1].length = 6;
   made.message[1] = made.message[0];
   made.message[1].bus = 0;
   made.message[1].node = 1;
@@ -202,7 +204,7 @@ TEST(two_nodes_of_one_id_on_two_buses) {
   Bus bus{two_encoders()};
   const auto both = [&] {
     bus.take(kPosition, 4, {0x30, 0x75, 0x00, 0x00}, 1);
-    bus.take(kPosition, 4, {0x40, 0x9C, 0x00, 0x00}, 0);
+    bus.take(kPosition, 6, {0x40, 0x9C, 0x00, 0x00}, 0);
     bus.pass();
   };
   const auto& axis = bus.receiver.inputs().axis;
