@@ -191,8 +191,9 @@ void submit_campaign(const CLI::App& command, const runs::CampaignOptions& campa
   }
   const ArrayProgress progress = progress_of(job);
   if (progress.is_queued() || progress.is_merging) {
-    throw std::runtime_error(fmt::format(
-        "it is in the queue already; graben campaign progress {} follows it", campaign.summary));
+    throw std::runtime_error(
+        fmt::format("it is in the queue already; graben campaign progress {} follows it",
+                    shell_word(campaign.summary)));
   }
   job.jobs = std::max(1U, campaign.jobs);
   job.sbatch = options.sbatch;
@@ -204,7 +205,7 @@ void submit_campaign(const CLI::App& command, const runs::CampaignOptions& campa
   fmt::print("submitted job {}: {} draws in {} shards; then job {}, which merges them into {}\n",
              job.arrays.back(), job.draws - progress.all_rows, progress.left.size(), job.merge,
              campaign.summary);
-  fmt::print("progress: graben campaign progress {}\n", campaign.summary);
+  fmt::print("progress: graben campaign progress {}\n", shell_word(campaign.summary));
 }
 
 void add_campaign_progress(CLI::App& campaign, int& status) {

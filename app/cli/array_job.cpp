@@ -237,7 +237,7 @@ std::string collect_array(const fs::path& summary) {
   if (progress.is_queued()) {
     throw std::runtime_error(fmt::format(
         "{} of its tasks are still in the queue; graben campaign progress {} follows them",
-        progress.running + progress.waiting, summary.string()));
+        progress.running + progress.waiting, shell_word(summary.string())));
   }
   if (!progress.left.empty()) {
     if (progress.all_rows <= job.rows_before) {

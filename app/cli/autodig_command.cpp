@@ -55,9 +55,10 @@ void throw_unless_done(const machines::TaskFile& task, const runs::AutodigResult
   if (result.end == runs::AutodigEnd::kNotFinished) {
     const runs::AutodigSample& last = result.samples.back();
     throw std::runtime_error(
-        fmt::format("the task was not finished in time: step {} ({}) at {:.0f} %, held by {}",
+        fmt::format("the task was not finished in time: step {} ({}) at {:.0f} %, held by {}; "
+                    "--seconds gives it more than these {:.0f} s",
                     last.progress.step, machines::step_name(last.progress.kind),
-                    100.0 * last.progress.share, limit_name(task, last.limit)));
+                    100.0 * last.progress.share, limit_name(task, last.limit), last.time_s));
   }
 }
 
@@ -74,6 +75,8 @@ void run_task(const TaskCommand& options) {
   const machines::TaskFile task = runs::planned_task(options.scenario, machine.profile);
   runs::AutodigOptions run =
       runs::usual_run(options.scenario, machine.profile, task.result.program);
+  run.faults = options.faults;
+  run.most_s = options.most_s;
   const fs::path out(options.out);
   const fs::path report = out / (options.name + ".html");
   run.log_file = out / (options.name + ".log");
@@ -99,7 +102,8 @@ void run_task(const TaskCommand& options) {
   }
   fmt::print("{}{}{}log     {}\nreport  {}\n", runs::steps_text(summary),
              machines::raised_text(task.request, task.result),
-             runs::figures_text(runs::figures_of(summary)), run.log_file.string(), report.string());
+             runs::figures_text(runs::headed_figures(summary)), run.log_file.string(),
+             report.string());
   if (summary.over_cut_max_m > kOverCut_m) {
     fmt::print("the edge was up to {:.0f} mm under the design\n", 1e3 * summary.over_cut_max_m);
   }
@@ -124,6 +128,9 @@ void add_autodig(CLI::App& app, int& status) {
   add_summary_option(*command, options->summary);
   add_simulated_options(*command, options->simulated);
   add_task_options(*command, options->scenario);
+  add_fault_option(*command, options->faults);
+  add_seconds_option(*command, options->most_s,
+                     "a minute and ten times what is planned, in layers what is planned for them");
   command->add_option("--seed", options->scenario.seed, "Of --errors, a whole number from 0")
       ->check(whole_number())
       ->capture_default_str();

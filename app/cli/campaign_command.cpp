@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -79,19 +80,23 @@ void add_campaign_options(CLI::App& command, runs::CampaignOptions& options) {
       ->check(whole_number_between(1, 256));
 }
 
-/// Runs one with a progress bar and prints what came of it.
+/// Runs one with a progress bar and prints what came of it; `signal`: what ended it early.
 template <class Run>
-void print_outcome(Run run) {
+void print_outcome(Run run, int& signal) {
   runs::CampaignOutcome outcome;
   {
     ProgressBar bar("campaign");
     outcome = run(bar.progress());
   }
   fmt::print("{}", outcome.table);
+  signal = outcome.signal;
   if (!outcome.error.empty()) {
     throw std::runtime_error(outcome.error);
   }
 }
+
+/// As a shell says that Ctrl-C ended a program.
+constexpr int kInterrupted = 128 + SIGINT;
 
 /// Here, or on Slurm if it was so typed.
 template <class Options, class Campaign>
@@ -99,11 +104,14 @@ void on_callback(CLI::App& command, const std::shared_ptr<Options>& options, int
                  Campaign campaign) {
   add_array_options(command, options->array);
   command.callback([&command, options, &status, campaign] {
+    int signal = 0;
     status = guarded(("campaign " + command.get_name()).c_str(), [&] {
       if (options->array.shards == 0) {
-        print_outcome([&](const runs::Progress& progress) {
-          return campaign(*options, options->campaign, progress);
-        });
+        print_outcome(
+            [&](const runs::Progress& progress) {
+              return campaign(*options, options->campaign, progress);
+            },
+            signal);
         return;
       }
       submit_campaign(
@@ -111,6 +119,7 @@ void on_callback(CLI::App& command, const std::shared_ptr<Options>& options, int
             static_cast<void>(campaign(*options, other, [](double, const std::string&) {}));
           });
     });
+    status = status != 0 && signal == SIGINT ? kInterrupted : status;
   });
 }
 

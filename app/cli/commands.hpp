@@ -3,7 +3,9 @@
 /// The subcommands of `graben`. Each adds itself to the CLI11 application and sets `status` to its
 /// exit status when it has run: 0 done, 1 the input or the result is at fault, 2 wrong usage.
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "app/machines/simulated/simulation_file.hpp"
 #include "app/runs/scenarios.hpp"
@@ -45,6 +47,8 @@ struct TaskCommand {
   std::string out = "out";
   std::string name = "autodig";  ///< Of the files in `out`.
   std::string summary;
+  std::vector<std::string> faults;
+  std::optional<double> most_s;
 };
 
 /// Runs it, writes log, report and summary, prints the figures. Throws std::runtime_error where the

@@ -96,7 +96,7 @@ void commission_in_memory(const CommissionCommand& options) {
     throw std::runtime_error(
         fmt::format("stopped at \"{}\": {}", step_text(steps[result.step]), stop_text(result)));
   }
-  fmt::print("{}", next_text(options));
+  fmt::print("{}{}", left_out_text(options.choice), next_text(options));
 }
 
 /// What is tried, of both kinds of run.

@@ -2,6 +2,7 @@
 #include "app/cli/commission_on_bus.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,8 +10,10 @@
 #include <iostream>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "app/cli/options.hpp"
+#include "app/cli/program.hpp"
 #include "app/commission/commission_windows.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "app/operate/bus_survey.hpp"
@@ -91,21 +94,43 @@ commission::Progress begun(const BusCommission& options,
 void say_result(const BusCommission& options, const operate::LiveResult& result) {
   const std::string resume =
       fmt::format("graben commission --can {} --profile {} --log {} --resume", options.interface,
-                  options.profile, options.log);
+                  shell_word(options.profile), shell_word(options.log));
   fmt::print("machine time {:.0f} s\nlog {}\n{} of {} steps done\n", result.machine_s, options.log,
              result.done, result.steps);
   if (result.end != operate::CommissionEnd::kDone) {
     throw std::runtime_error(fmt::format(
         "{}. Go on with: {}", result.words.empty() ? "told to end" : result.words, resume));
   }
-  fmt::print("{}", next_text(options));
+  fmt::print("{}{}", left_out_text(options.choice), next_text(options));
 }
 
 }  // namespace
 
+std::string left_out_text(const SequenceChoice& choice) {
+  std::vector<std::string> out;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const std::string name = commission::axis_name(axis);
+    if (!choice.only.empty() && !has(choice.only, name)) {
+      out.push_back("all of the " + name);
+    }
+  }
+  for (const std::string& end : choice.no_touch) {
+    out.push_back("the touch of " + end);
+  }
+  for (const auto& [left, words] : {std::pair{choice.no_steps, "steps at five speeds"},
+                                    std::pair{choice.no_bursts, "pulses for the lowest mode"},
+                                    std::pair{choice.no_pairs, "two drives at once"}}) {
+    if (left) {
+      out.emplace_back(words);
+    }
+  }
+  return out.empty() ? ""
+                     : fmt::format("left out, and so not identified: {}\n", fmt::join(out, ", "));
+}
+
 std::string next_text(const BusCommission& options) {
-  return fmt::format("next: graben identify --log {} --profile {} --out better.toml\n", options.log,
-                     options.profile);
+  return fmt::format("next: graben identify --log {} --profile {} --out better.toml\n",
+                     shell_word(options.log), shell_word(options.profile));
 }
 
 void leave_touches(const SequenceChoice& choice, commission::SequenceOptions& options) {

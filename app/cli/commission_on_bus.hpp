@@ -34,6 +34,9 @@ void choose(const SequenceChoice& choice, commission::SequenceOptions& options);
 /// The part of it that goes before what windows say.
 void leave_touches(const SequenceChoice& choice, commission::SequenceOptions& options);
 
+/// What the choice keeps from being tried, as a line; empty: nothing.
+[[nodiscard]] std::string left_out_text(const SequenceChoice& choice);
+
 /// The command that makes a profile of the log, as a line.
 [[nodiscard]] std::string next_text(const BusCommission& options);
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
@@ -15,6 +16,11 @@ namespace {
 constexpr int kWidth = 32;
 constexpr std::chrono::milliseconds kRedraw(100);
 }  // namespace
+
+int failed_status() {
+  constexpr int kInterrupted = 128 + SIGINT;
+  return stop_signal() == SIGINT ? kInterrupted : 1;
+}
 
 void assert_not_stopped() {
   if (stop_requested()) {

@@ -13,7 +13,10 @@
 
 namespace graben::cli {
 
-/// 0 if `work` returned, 1 with its message on standard error if it threw.
+/// Of work that threw: 130 where Ctrl-C had ended it, as a shell says it; else 1.
+[[nodiscard]] int failed_status();
+
+/// 0 if `work` returned, failed_status() with its message on standard error if it threw.
 template <class Work>
 int guarded(const char* command, Work work) {
   try {
@@ -23,10 +26,10 @@ int guarded(const char* command, Work work) {
     // Its own text is the library's, with the call that failed.
     fmt::print(stderr, "graben {}: {}: {}\n", command, error.path1().string(),
                error.code().message());
-    return 1;
+    return failed_status();
   } catch (const std::exception& error) {
     fmt::print(stderr, "graben {}: {}\n", command, error.what());
-    return 1;
+    return failed_status();
   }
 }
 

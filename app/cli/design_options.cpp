@@ -7,13 +7,16 @@
 
 #include "app/cli/options.hpp"
 #include "app/machines/missing_file.hpp"
+#include "app/machines/profile_file.hpp"
 
 namespace graben::cli {
 
 void add_design_options(CLI::App& command, design::DesignSource& source) {
   command.add_option(
       "--design", source.file,
-      "Instead of the profile's design: a LandXML surface (.xml), points x y z (.xyz, .csv, .pts), "
+      "Instead of the profile's design, a file or a shipped one (trench.xml, banked.xml, "
+      "curved.xml): "
+      "a LandXML surface (.xml), points x y z (.xyz, .csv, .pts), "
       "or any other text with x along the track and height over the plane, a line a corner, and "
       "where the blade tilts the slope across and the track's curvature");
   command.add_option("--surface", source.surface, "Of a LandXML file with several, by its name");
@@ -43,7 +46,9 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
       ->capture_default_str();
 }
 
-Designed designed(const machines::SimulatedDozer& machine, const design::DesignSource& source) {
+Designed designed(const machines::SimulatedDozer& machine, const design::DesignSource& told) {
+  design::DesignSource source = told;
+  source.file = machines::find_design(told.file);
   if (source.file.empty()) {
     if (!source.surface.empty() || source.has_track()) {
       throw std::runtime_error(

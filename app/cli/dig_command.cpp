@@ -40,6 +40,7 @@ struct DigCommand {
   double speed = 1.0;
   std::optional<double> loops;
   std::vector<std::string> figures;
+  std::vector<std::string> faults;
 };
 
 /// Start that the options name, if they do.
@@ -94,6 +95,7 @@ void dig(const DigCommand& options) {
       start_strokes(options, machine.profile).value_or(run_options.start_strokes_m);
   run_options.speed_override_ratio = options.speed;
   run_options.loops = options.loops.value_or(run_options.loops);
+  run_options.faults = options.faults;
   const std::filesystem::path out(options.out);
   const std::filesystem::path report = out / "dig.html";
   run_options.log_file = out / "dig.log";
@@ -161,6 +163,7 @@ TaskCommand task_command(const DigCommand& options) {
   run.out = options.out;
   run.name = "dig";
   run.summary = options.summary;
+  run.faults = options.faults;
   return run;
 }
 
@@ -206,6 +209,7 @@ void add_dig(CLI::App& app, int& status) {
                   "Any pose of the work space, drawn from the seed");
   start->require_option(0, 1);
   add_override_option(*command, options->speed);
+  add_fault_option(*command, options->faults);
   command
       ->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100; once unless told")
       ->check(number_between(0.1, 100.0));

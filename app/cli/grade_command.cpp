@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -38,13 +39,18 @@ struct GradeCommand {
   design::DesignSource design;
   int compared = 0;  ///< Of the sample designs.
   std::vector<std::string> figures;
+  std::vector<std::string> faults;
+  std::optional<double> most_s;
 };
 
 std::string end_text(const runs::GradeResult& result) {
   return result.end == runs::GradeEnd::kFault
              ? fmt::format("the controller stopped with a fault: {} (fault {})",
                            runs::fault_words(result.fault), static_cast<int>(result.fault))
-             : "the grade was not finished in time";
+             : fmt::format(
+                   "the grade was not finished in time; --seconds gives it more than these {:.0f} "
+                   "s",
+                   result.samples.empty() ? 0.0 : result.samples.back().time_s);
 }
 
 /// And its design along the track, where a file of its own has it.
@@ -66,15 +72,30 @@ std::string subtitle_of(const GradeCommand& options, const machines::SimulatedDo
                      runs::scenario_text(machine, options.scenario), seed);
 }
 
-void grade(const GradeCommand& options) {
+/// A figure that is of a constant speed brings it, unless another one is of a bounded speed.
+GradeCommand with_speed_of_figures(GradeCommand options) {
+  const bool all_constant =
+      !options.figures.empty() &&
+      std::all_of(options.figures.begin(), options.figures.end(), reports::is_of_constant_speed);
+  if (all_constant) {
+    options.scenario.speed_mode = "constant";
+  }
+  return options;
+}
+
+void grade(const GradeCommand& told) {
+  const GradeCommand options = with_speed_of_figures(told);
+  const runs::GradeScenario& scenario = options.scenario;
   const auto [machine, line] = machine_of(options);
   const std::filesystem::path out(options.out);
   runs::GradeOptions run;
+  run.faults = options.faults;
+  run.most_s = options.most_s;
   const std::filesystem::path report = out / "grade.html";
   run.log_file = options.log.empty() ? out / "grade.log" : std::filesystem::path(options.log);
   const std::filesystem::path design = out / "design.txt";
   const std::string source = options.design.file.string();
-  const bool is_constant = options.scenario.speed_mode == "constant";
+  const bool is_constant = scenario.speed_mode == "constant";
   reports::assert_mononen_figures(options.figures, is_constant);
   std::vector<std::string> written = {report.string(), run.log_file.string(), options.summary,
                                       design.string()};
@@ -97,7 +118,7 @@ void grade(const GradeCommand& options) {
   }
   runs::GradeSummary summary = runs::summarise(machine, result);
   summary.limit_share = runs::logged_limit_shares(run.log_file);
-  const runs::RunFigures figures = runs::figures_of(summary);
+  const runs::RunFigures figures = runs::headed_figures(summary);
   reports::write_grade_report({report, scope::scope_page()}, run.log_file, machine, result, summary,
                               subtitle_of(options, machine));
   if (!options.summary.empty()) {
@@ -116,6 +137,13 @@ void grade(const GradeCommand& options) {
   }
   if (result.end != runs::GradeEnd::kDone) {
     throw std::runtime_error(end_text(result));
+  }
+  const std::string missed = runs::out_of_tolerance(summary, machine.profile.grade.tolerance_m);
+  if (is_constant && !missed.empty()) {
+    // Asked for: what a speed without the controller's bound costs.
+    fmt::print("{}\n", missed);
+  } else if (!missed.empty()) {
+    throw std::runtime_error(missed);
   }
 }
 
@@ -181,6 +209,9 @@ void add_grade(CLI::App& app, int& status) {
   add_ground_options(*command, options->scenario);
   add_lateness_options(*command, options->scenario);
   add_error_option(*command, options->scenario);
+  add_fault_option(*command, options->faults);
+  add_seconds_option(*command, options->most_s,
+                     "ten times what the wanted speed needs, and 20 s, of each pass");
   command->add_option("--seed", options->seed, "Of --errors, a whole number from 0")
       ->check(whole_number());
   add_figure_option(*command, options->figures, reports::mononen_figure_names());

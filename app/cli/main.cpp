@@ -73,8 +73,8 @@ int main(int argc, char** argv) {
     return become(*row, argv);
   }
   CLI::App app(
-      "Graben: follows a path as fast as the hydraulics allow, without ever changing the path's "
-      "direction",
+      "Graben: follows a path as fast as the hydraulics allow, slowing all drives together to keep "
+      "the path's direction",
       "graben");
   graben::cli::set_help(app);
   app.set_version_flag("--version", GRABEN_VERSION, "Say the version");

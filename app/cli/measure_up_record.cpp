@@ -7,6 +7,7 @@
 #include "app/cli/console.hpp"
 #include "app/cli/measure_up.hpp"
 #include "app/cli/output_file.hpp"
+#include "app/cli/program.hpp"
 #include "app/runs/code_text.hpp"
 #include "app/runs/touch_run.hpp"
 
@@ -68,7 +69,8 @@ void record_touches(const MeasureUpCommand& options) {
         fmt::format("stopped at touch {}: {}", result.touched + 1, touch_stop_text(result)));
   }
   fmt::print("next: graben measure-up --log {} --profile {} {}--height {:.3f}{} --out NEW.toml\n",
-             options.record, options.profile, touches_text(run), result.height_m.front(),
+             shell_word(options.record), shell_word(options.profile), touches_text(run),
+             result.height_m.front(),
              result.height_m.size() > 1
                  ? fmt::format(" --rise {:.3f}", result.height_m[1] - result.height_m[0])
                  : "");

@@ -20,7 +20,10 @@
 #include "app/cli/output_file.hpp"
 #include "app/cli/program.hpp"
 #include "app/machines/any_machine.hpp"
+#include "app/machines/new/data_sheet.hpp"
 #include "app/machines/new/new_profile.hpp"
+#include "app/machines/simulated/simulated_dozer.hpp"
+#include "app/machines/simulated/simulated_excavator.hpp"
 
 namespace graben::cli {
 namespace {
@@ -109,26 +112,51 @@ void assert_answers_come() {
   }
 }
 
+void load_simulation(const fs::path& file) {
+  if (machines::profile_kind(file) == machines::MachineKind::kDozer) {
+    static_cast<void>(machines::load_simulated_dozer(file));
+  } else {
+    static_cast<void>(machines::load_simulated_excavator(file));
+  }
+}
+
 void new_machine(const NewMachine& options) {
   const fs::path file(options.out);
   if (fs::exists(file) && !options.force) {
     throw std::runtime_error(fmt::format("{}: is there already; --force replaces it", options.out));
   }
-  const machines::ProfileDocument like =
+  const machines::ProfileDocument after =
       machines::read_document(machines::find_profile(options.like));
   assert_answers_come();
   assert_writable(file);
-  fmt::print("Empty lines keep the value in brackets, {}'s.\n", like.file.stem().string());
+  fmt::print("Empty lines keep the value in brackets, {}'s.\n", after.file.stem().string());
   machines::ProfileAnswers answers;
+  for (const machines::ProfileQuestion& question : machines::sheet_questions(after)) {
+    if (const auto answer = ask(question, after, answers)) {
+      answers[question.key] = *answer;
+    }
+  }
+  const machines::ProfileDocument like = machines::with_structure(after, answers);
   for (const machines::ProfileQuestion& question : machines::profile_questions(like)) {
     if (const auto answer = ask(question, like, answers)) {
       answers[question.key] = *answer;
     }
   }
-  write_whole(file, machines::new_profile_text(like, file.stem().string(), answers));
+  const std::string text = machines::new_profile_text(like, file.stem().string(), answers);
+  write_whole(file, text);
   fmt::print("profile {}\n", options.out);
+  const fs::path simulation_file = machines::simulation_file(file);
+  const auto simulation = machines::simulation_of(after, like);
+  if (simulation && (options.force || !fs::exists(simulation_file))) {
+    write_whole(simulation_file, machines::new_simulation_text(
+                                     *simulation, like, file.stem().string(), answers, text));
+    fmt::print("its simulation {}\n", simulation_file.string());
+  }
   // What does not fit together is said now, with its line; the file is there to be corrected.
   static_cast<void>(machines::load_any(file));
+  if (simulation) {
+    load_simulation(file);
+  }
   fmt::print("next    graben check {}\n", shell_word(options.out));
 }
 

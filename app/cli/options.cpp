@@ -243,6 +243,23 @@ void add_summary_option(CLI::App& command, std::string& summary) {
   command.add_option("--summary", summary, "Write the figures as JSON to this file");
 }
 
+void add_fault_option(CLI::App& command, std::vector<std::string>& faults,
+                      const std::string& more) {
+  command.add_option("--fault", faults,
+                     "A fault of the machine, NAME@SECONDS or NAME=VALUE@SECONDS, as "
+                     "boom-stroke:drift=0.01@5; more of them by naming it again. It stays, and an "
+                     "11-bit frame 7F0 says when it begins. An unknown name lists those there are" +
+                         more);
+}
+
+void add_seconds_option(CLI::App& command, std::optional<double>& most_s,
+                        const std::string& usual) {
+  command
+      .add_option("--seconds", most_s,
+                  "Give it up after this simulated time, 1 .. 1e6 s; unless told " + usual)
+      ->check(number_between(1.0, 1e6));
+}
+
 void add_override_option(CLI::App& command, double& speed_override_ratio) {
   command.add_option("--speed", speed_override_ratio, "Operator's speed override, 0.05 .. 1")
       ->check(number_between(0.05, 1.0))

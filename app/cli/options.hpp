@@ -77,6 +77,11 @@ CLI::Option& add_soil_option(CLI::App& command, const std::function<void(const s
 void add_profile_option(CLI::App& command, std::string& profile);
 /// Adds --summary for a JSON file.
 void add_summary_option(CLI::App& command, std::string& summary);
+/// Adds --fault, of `dig`, `autodig`, `grade` and `plant`; `more` ends its help.
+void add_fault_option(CLI::App& command, std::vector<std::string>& faults,
+                      const std::string& more = "");
+/// Adds --seconds, of `autodig` and `grade`, after which a run is given up.
+void add_seconds_option(CLI::App& command, std::optional<double>& most_s, const std::string& usual);
 /// Adds --speed, the operator's override.
 void add_override_option(CLI::App& command, double& speed_override_ratio);
 /// Names of all errors that an excavator's controller can have.

@@ -178,11 +178,7 @@ void add_plant(CLI::App& app, int& status) {
           "When an operator at dig, grade or program lets go for a second, 0 .. 1e6 s; more "
           "often by naming it again")
       ->check(number_between(0.0, 1e6));
-  command->add_option(
-      "--fault", options->run.faults,
-      "A fault of the machine, NAME@SECONDS or NAME=VALUE@SECONDS, as "
-      "boom-stroke:drift=0.01@5; more of them by naming it again. It stays, and an "
-      "11-bit frame 7F0 says when it begins. An unknown name lists those there are");
+  add_fault_option(*command, options->run.faults);
   add_summary_option(*command, options->summary);
   add_simulated_options(*command, options->simulated);
   add_scenario_options(*command, options->scenario);

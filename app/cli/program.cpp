@@ -7,7 +7,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -97,6 +99,13 @@ ProgramOutcome run_program(const std::vector<std::string>& words) {
 }
 
 std::string shell_word(const std::string& word) {
+  const bool is_plain =
+      !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char letter) {
+        return std::isalnum(letter) != 0 || std::strchr("_./=:,@%+-", letter) != nullptr;
+      });
+  if (is_plain) {
+    return word;
+  }
   std::string quoted = "'";
   for (const char letter : word) {
     quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);

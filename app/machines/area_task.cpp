@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
@@ -45,7 +46,7 @@ constexpr int kStripsUsual = 3;
 /// Strips overlap by this share of the bucket's width.
 constexpr double kOverlap = 0.15;
 
-enum class AreaKind { kTrench = 0, kBench = 1, kLevel = 2, kSlope = 3, kTruck = 4 };
+enum class AreaKind { kTrench = 0, kBench = 1, kLevel = 2, kSlope = 3, kTruck = 4, kPit = 5 };
 
 Eigen::Vector3d at(double radius_m, double height_m, double swing_rad) {
   return {radius_m * std::cos(swing_rad), radius_m * std::sin(swing_rad), height_m};
@@ -129,10 +130,32 @@ TeethPose over_far_end(const Area& area, double bucket_m, double attitude_rad) {
           attitude_rad};
 }
 
+constexpr const char* kDepthNearHelp =
+    "the same at the near end, where the ground is to fall or rise; a slope has to say it";
+
+/// Side by side, so many as make a pit's width at its far end.
+int strips_of(TomlReader& reader, const ExcavatorProfile& profile) {
+  const double width_m =
+      reader.number("area.width", {0.1, 20.0, "m"}, "of a pit at its far end, side to side");
+  const double bucket_m = profile.geometry.body.bucket_width_m;
+  const double strip_m = (1.0 - kOverlap) * bucket_m;
+  if (reader.lists() || !(bucket_m > 0.0)) {
+    return 1;
+  }
+  const int strips = 1 + static_cast<int>(std::ceil(std::max(0.0, width_m - bucket_m) / strip_m));
+  const int most = profile.has_swing() ? kStripMost : 1;
+  if (strips > most) {
+    reader.fail("area.width",
+                fmt::format("{} m are {} strips of a bucket of {} m; allowed: {} strips, {:.2f} m",
+                            width_m, strips, bucket_m, most, bucket_m + (most - 1) * strip_m));
+  }
+  return std::min(strips, most);
+}
+
 Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
   Area area;
-  area.kind = static_cast<AreaKind>(
-      reader.choice("area.kind", {"trench", "bench", "level", "slope", "truck"}, "what is made"));
+  area.kind = static_cast<AreaKind>(reader.choice(
+      "area.kind", {"trench", "bench", "level", "slope", "truck", "pit"}, "what is made"));
   area.far_m = reader.number("area.far", kRadius, "from the swing axis, where a cut begins");
   area.near_m = reader.number("area.near", kRadius, "the same where it ends, less than far");
   area.ground_m = reader.number_or(0.0, "area.ground", kPlace,
@@ -140,9 +163,8 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
   area.depth_far_m = reader.number("area.depth", kDepth, "of the design under the ground");
   area.depth_near_m = area.depth_far_m;
   const auto lists = [&](const char* key) { return reader.lists() && reader.has(key); };
-  if (area.kind == AreaKind::kSlope || lists("area.depth_near")) {
-    area.depth_near_m =
-        reader.number("area.depth_near", kDepth, "the same at the near end; of a slope only");
+  if (area.kind == AreaKind::kSlope || reader.has("area.depth_near")) {
+    area.depth_near_m = reader.number("area.depth_near", kDepth, kDepthNearHelp);
   }
   area.touches = reader.boolean_or(true, "area.touch",
                                    "the ground is first felt for, and heights counted from it");
@@ -155,6 +177,9 @@ Area read_table(TomlReader& reader, const ExcavatorProfile& profile) {
   if (wide) {
     area.strips = reader.integer_or(profile.has_swing() ? kStripsUsual : 1, "area.strips", 1,
                                     kStripMost, "side by side");
+  }
+  if (area.kind == AreaKind::kPit || lists("area.width")) {
+    area.strips = strips_of(reader, profile);
   }
   area.dump_m = usual_dump(area, profile);
   if (reader.has("area.dump")) {

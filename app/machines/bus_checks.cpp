@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "can_dbc/codec.hpp"
@@ -74,22 +75,29 @@ void check_ids(TomlReader& reader, const BusTable& table) {
     reader.fail(key,
                 fmt::format("its id 0x{:X} is that of {}; allowed: one of its own", id, whose));
   };
-  std::set<std::uint32_t> seen;
+  std::vector<std::pair<std::uint32_t, std::uint8_t>> seen;  // With their bus.
+  const auto is_seen = [&](std::uint32_t id, std::uint8_t bus) {
+    return std::any_of(seen.begin(), seen.end(), [&](const auto& other) {
+      return other.first == id &&
+             (bus == kAnyBus || other.second == kAnyBus || other.second == bus);
+    });
+  };
   for (std::size_t i = 0; i < table.message_count; ++i) {
     const std::uint32_t id = table.rule[i].id;
     if (own.count(id) != 0U && !is_engines(table, id)) {
       refuse(fmt::format("receive[{}]", i), id, "a message of our own bus");
     }
-    seen.insert(id);
+    seen.emplace_back(id, table.message[i].bus);
   }
   for (std::size_t i = 0; i < table.send_count; ++i) {
     const std::uint32_t id = table.send[i].rule.id;
     const std::string key = fmt::format("send[{}]", i);
     if (own.count(id) != 0U) {
       refuse(key, id, "a message of our own bus");
-    } else if (!seen.insert(id).second) {
+    } else if (is_seen(id, table.send[i].bus)) {
       refuse(key, id, "another message of this file");
     }
+    seen.emplace_back(id, table.send[i].bus);
   }
 }
 

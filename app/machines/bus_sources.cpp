@@ -104,11 +104,14 @@ std::uint8_t read_node_of(TomlReader& reader, const BusTable& table, const Decla
   return kNoNode;
 }
 
-/// Two messages of one id, or two that say the same, would take turns.
+/// Two messages of one id on one bus, or two that say the same, would take turns.
 void check_received(TomlReader& reader, const BusTable& table, std::size_t message,
                     const std::string& key) {
   for (std::size_t i = 0; i < message; ++i) {
-    if (table.rule[i].id == table.rule[message].id) {
+    const std::uint8_t bus = table.message[i].bus;
+    const std::uint8_t own = table.message[message].bus;
+    const bool apart = bus != kAnyBus && own != kAnyBus && bus != own;
+    if (table.rule[i].id == table.rule[message].id && !apart) {
       reader.fail(key, "its id is that of another message");
     }
   }

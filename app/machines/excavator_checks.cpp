@@ -33,23 +33,27 @@ std::string angle_key(unsigned axis) { return std::string(kAxisNames[axis]) + ".
 /// The angle range is documentation; off by more than this, a pin is wrong.
 constexpr double kAngleTolerance_rad = 0.15;
 
-void check_angles(TomlReader& reader, const ExcavatorProfile& profile,
+/// False: the pins are not those of the angles; what is judged by them says nothing new.
+bool check_angles(TomlReader& reader, const ExcavatorProfile& profile,
                   const std::array<std::vector<double>, kAxisCount>& range) {
   const auto given = joint_ranges(profile.geometry);
   if (!given) {
     reader.fail("bucket.linkage", "can't close over the whole stroke of the bucket cylinder");
-    return;
+    return false;
   }
+  bool fits = true;
   for (unsigned i = 0; i < kAxisCount; ++i) {
     const std::string key = angle_key(i);
     const auto [least, most] = (*given)[i];
     if (std::abs(least - range[i][0]) > kAngleTolerance_rad ||
         std::abs(most - range[i][1]) > kAngleTolerance_rad) {
+      fits = false;
       reader.fail(key, fmt::format("[{}, {}] rad; the pins and stroke ends give [{:.3f}, {:.3f}] "
                                    "rad; allowed: within {} rad of that",
                                    range[i][0], range[i][1], least, most, kAngleTolerance_rad));
     }
   }
+  return fits;
 }
 
 }  // namespace
@@ -90,13 +94,15 @@ void check_excavator_across_keys(TomlReader& reader, const ExcavatorProfile& pro
   if (!reader.is_sound()) {
     return;
   }
-  check_angles(reader, profile, angle_range);
+  const bool fits = check_angles(reader, profile, angle_range);
   const ProfileCheck check = profile_check(profile);
   if (check.valve.defect != McvDefect::kNone) {
     reader.fail("valve", fmt::format("spool or pump {} can't be solved (defect {})",
                                      check.valve.index, static_cast<int>(check.valve.defect)));
   }
-  check_path(reader, "task.path", check);
+  if (fits) {
+    check_path(reader, "task.path", check);
+  }
 }
 
 }  // namespace graben::machines

@@ -19,15 +19,17 @@ namespace {
 /// out, and what is not needed goes over the bypass.
 constexpr double kSwashByItself = 1.0;
 
-/// The bus profile that the machine's names, beside it, in `buses` there, or in the system's
-/// folder. None where it names ours or nothing.
+/// The bus profile that the machine's names, beside it, in `buses` there, or a shipped one. None
+/// where it names ours or nothing.
 std::optional<BusFile> other_bus(const ProfileDocument& document) {
   const std::string name = document.root["bus"].value<std::string>().value_or("");
   const bool is_ours = name.empty() || name == known_buses().front().name;
   const std::filesystem::path beside = document.file.parent_path();
-  return is_ours ? std::nullopt
-                 : std::optional(load_bus(
-                       find_bus(name, {beside, beside / "buses", "/usr/share/graben/buses"})));
+  std::vector<std::filesystem::path> folders = {beside, beside / "buses"};
+  for (const std::filesystem::path& shipped : shipped_folders()) {
+    folders.push_back(shipped / "buses");
+  }
+  return is_ours ? std::nullopt : std::optional(load_bus(find_bus(name, folders)));
 }
 
 }  // namespace

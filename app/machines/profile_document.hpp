@@ -21,7 +21,8 @@ struct ProfileDocument {
 [[nodiscard]] const std::vector<std::string>& kind_names();
 inline constexpr const char* kKindHelp = "which controller; the same in both files";
 inline constexpr const char* kLikeHelp =
-    "name of another machine's file beside this one, which holds but for what this one says; "
+    "name of another machine's file beside this one, or of a shipped one, which holds but for what "
+    "this one says; "
     "arrays, those of tables too, are taken or replaced as a whole";
 
 /// Lays differences over a document: tables key by key, everything else as a whole. Moved, so that

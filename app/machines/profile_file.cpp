@@ -43,10 +43,23 @@ ProfileDocument read_alone(const std::filesystem::path& file) {
   }
 }
 
-/// The machine, or the simulated one, that a file of the same folder is like.
+/// The machine, or the simulated one, that a file is like: of the same folder, else a shipped one.
 std::filesystem::path base_file(const std::filesystem::path& file, const std::string& name) {
-  const std::filesystem::path machine = file.parent_path() / (name + ".toml");
-  return is_simulation_file(file) ? simulation_file(machine) : machine;
+  const auto in = [&](const std::filesystem::path& folder) {
+    const std::filesystem::path machine = folder / (name + ".toml");
+    return is_simulation_file(file) ? simulation_file(machine) : machine;
+  };
+  std::error_code error;
+  std::filesystem::path beside = in(file.parent_path());
+  if (std::filesystem::is_regular_file(beside, error)) {
+    return beside;
+  }
+  for (const std::filesystem::path& folder : shipped_folders()) {
+    if (std::filesystem::is_regular_file(in(folder), error)) {
+      return in(folder);
+    }
+  }
+  return beside;
 }
 
 /// Throws ProfileError of the file that names it, unless it is another file that is there.
@@ -55,7 +68,8 @@ void check_base(const ProfileDocument& document, const std::filesystem::path& ba
   const auto refuse = [&](const std::string& what) {
     throw ProfileError(document.file.string(),
                        {fmt::format("like (line {}): \"{}\"{}; allowed: the name of another "
-                                    "machine's file beside this one, without .toml",
+                                    "machine's file beside this one or of a shipped one, without "
+                                    ".toml",
                                     document.root.get("like")->source().begin.line, name, what)});
   };
   std::error_code error;

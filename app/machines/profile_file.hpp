@@ -32,9 +32,13 @@ class ProfileError : public std::runtime_error {
 /// The same among the profiles that the tool brings: /usr/share/graben/machines where it is
 /// installed in /usr/bin, those of the sources in a build folder.
 [[nodiscard]] std::filesystem::path find_profile(const std::string& name);
+/// Where these are; the tool's first, then the deployed process'.
+[[nodiscard]] std::vector<std::filesystem::path> shipped_folders();
 /// What find_profile(name) and find_task(name) know, in order; none where nothing is shipped.
 [[nodiscard]] std::vector<std::string> shipped_profile_names();
 [[nodiscard]] std::vector<std::string> shipped_task_names();
+/// A design as it is named, or of that name among the shipped ones, such as trench.xml.
+[[nodiscard]] std::filesystem::path find_design(const std::filesystem::path& name);
 /// Names of the profiles or tasks in these folders: each NAME.toml that is no simulated machine's,
 /// once, in order.
 [[nodiscard]] std::vector<std::string> file_names(

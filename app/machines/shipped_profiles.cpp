@@ -49,6 +49,8 @@ const fs::path& shipped_folder() {
 
 }  // namespace
 
+std::vector<fs::path> shipped_folders() { return {shipped_folder(), "/usr/share/graben"}; }
+
 std::vector<std::string> shipped_profile_names() { return file_names({shipped_folder()}); }
 
 std::vector<std::string> shipped_task_names() { return file_names({shipped_folder() / "tasks"}); }
@@ -73,6 +75,17 @@ fs::path find_shipped_simulation(const std::string& name) {
         name, shipped_folder().string(), fmt::join(there, ", "), near_word_hint(name, there)));
   }
   return file;
+}
+
+fs::path find_design(const fs::path& name) {
+  std::error_code error;
+  for (const fs::path& folder : {shipped_folder(), shipped_folder().parent_path() / "designs"}) {
+    const bool is_name = !name.has_parent_path() && !fs::exists(name, error);
+    if (is_name && fs::is_regular_file(folder / name, error)) {
+      return folder / name;
+    }
+  }
+  return name;
 }
 
 fs::path find_bus(const std::string& name) { return find_bus(name, {shipped_folder() / "buses"}); }

@@ -46,7 +46,8 @@ DesignPlane read_design(TomlReader& reader) {
 
 void read_fences(TomlReader& reader, ProgramRequest& request) {
   if (reader.has("fence")) {
-    const int most = request.has_design ? kFenceMost - 1 : kFenceMost;
+    const bool one_less = request.has_design && !reader.lists();
+    const int most = one_less ? kFenceMost - 1 : kFenceMost;
     request.fences.count =
         reader.table_count("fence", 1, most, "fences, a table each; one less with a design");
   }

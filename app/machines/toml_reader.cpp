@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstring>
 #include <sstream>
-#include <string_view>
 
 #include "app/machines/near_word.hpp"
+#include "app/machines/unit_hint.hpp"
 
 namespace graben::machines {
 namespace {
@@ -35,16 +35,6 @@ std::string value_text(const toml::node& node) {
 bool is_tables(const toml::node& node) {
   const toml::array* array = node.as_array();
   return array != nullptr && array->is_homogeneous(toml::node_type::table);
-}
-
-/// An angle in degrees is the likeliest slip of all.
-std::string degrees_hint(double value, const Range& range) {
-  constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
-  const double as_rad = value * kRadPerDeg;
-  const bool is_angle = std::string_view(range.unit).substr(0, 3) == "rad";
-  return is_angle && as_rad >= range.least && as_rad <= range.most
-             ? fmt::format("; in degrees? then it is {:.4g} {}", as_rad, range.unit)
-             : "";
 }
 
 /// FNV-1a, a byte after the other.
@@ -141,8 +131,20 @@ std::uint32_t TomlReader::hash() const {
   return hash.value();
 }
 
+/// Of the same key, or against a number beside it in its table: judged by a value that is none.
+bool TomlReader::follows_from_another(const std::string& key, const std::string& what) const {
+  const std::size_t dot = key.rfind('.');
+  const std::string table = dot == std::string::npos ? "" : key.substr(0, dot + 1);
+  const auto says = [&](const char* words) { return what.find(words) != std::string::npos; };
+  const bool compares = !table.empty() && (says("than ") || says("at most") || says("at least"));
+  return std::any_of(unread_.begin(), unread_.end(), [&](const std::string& other) {
+    return other == key || other.compare(0, key.size() + 1, key + "[") == 0 ||
+           (compares && other.compare(0, table.size(), table) == 0);
+  });
+}
+
 void TomlReader::fail(const std::string& key, const std::string& what) {
-  if (listed_has_.has_value()) {
+  if (listed_has_.has_value() || follows_from_another(key, what)) {
     return;
   }
   const toml::node* node = root_.at_path(key).node();
@@ -154,6 +156,7 @@ double TomlReader::checked(const toml::node& node, const std::string& key, const
   const auto refuse = [&](const std::string& what) {
     errors_.push_back(fmt::format("{} ({}): {} {}; {}", key, place(node), value_text(node), what,
                                   allowed(range)));
+    unread_.insert(key);
     return std::clamp(0.0, range.least, range.most);
   };
   if (!node.is_number()) {
@@ -165,7 +168,7 @@ double TomlReader::checked(const toml::node& node, const std::string& key, const
   }
   if (value < range.least || value > range.most) {
     refuse("is out of range");
-    errors_.back() += degrees_hint(value, range);
+    errors_.back() += unit_hint(value, range.least, range.most, range.unit);
     return std::clamp(0.0, range.least, range.most);
   }
   return value;

@@ -75,7 +75,8 @@ class TomlReader {
   /// path that leads to no value. Texts are in the hash as well.
   std::vector<Provenance> provenance();
 
-  /// Records an error that concerns a key as a whole.
+  /// Records an error that concerns a key as a whole; none where it is judged by a value beside it
+  /// that was out of range itself.
   void fail(const std::string& key, const std::string& what);
   /// FNV-1a of every key that was asked for and its value, in the keys' order: the same for each
   /// way to write a value, and whatever the order, the layout and the comments are.
@@ -98,6 +99,7 @@ class TomlReader {
   void note(const std::string& key, std::vector<double> values);
   double checked(const toml::node& node, const std::string& key, const Range& range);
   Provenance provenance_of(const std::string& key, const toml::node& told);
+  [[nodiscard]] bool follows_from_another(const std::string& key, const std::string& what) const;
   void refuse_unknown_in(const toml::node& node, const std::string& path);
 
   /// Its line, and the file unless it is the one that is read.
@@ -109,6 +111,7 @@ class TomlReader {
   std::set<std::string> known_;
   std::vector<KeyEntry> keys_;
   std::map<std::string, std::vector<double>> values_;
+  std::set<std::string> unread_;  ///< Keys whose value a harmless one stands in for.
   std::vector<std::string> errors_;
 };
 

@@ -69,7 +69,7 @@ void write_autodig_report(const ReportTarget& target, const std::filesystem::pat
                           const machines::SimulatedExcavator& machine,
                           const machines::TaskFile& task, const runs::AutodigResult& result,
                           const runs::AutodigSummary& summary, const std::string& subtitle) {
-  const RunText text = run_text("A task's run", subtitle, runs::figures_of(summary));
+  const RunText text = run_text("A task's run", subtitle, runs::headed_figures(summary));
   json run = run_json(text, truth(machine.profile, result.samples));
   run["way"] = way(result.samples);
   if (!result.built.map.empty()) {

@@ -58,7 +58,7 @@ json way(const std::vector<runs::GradeSample>& samples) {
 void write_grade_report(const ReportTarget& target, const std::filesystem::path& log_file,
                         const machines::SimulatedDozer& machine, const runs::GradeResult& result,
                         const runs::GradeSummary& summary, const std::string& subtitle) {
-  const RunText text = run_text("Grading run", subtitle, runs::figures_of(summary));
+  const RunText text = run_text("Grading run", subtitle, runs::headed_figures(summary));
   json run = run_json(text, truth(machine, result.samples));
   run["way"] = way(result.samples);
   add_log(run, log_file);

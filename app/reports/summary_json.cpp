@@ -48,7 +48,7 @@ void write_summary(const std::filesystem::path& file, const runs::RunFigures& fi
 }
 
 void write_autodig_summary(const std::filesystem::path& file, const runs::AutodigSummary& summary) {
-  ordered_json figures = figures_json(runs::figures_of(summary));
+  ordered_json figures = figures_json(runs::headed_figures(summary));
   figures["steps"] = ordered_json::array();
   for (const runs::StepFigures& step : summary.steps) {
     figures["steps"].push_back({{"step", step.step},

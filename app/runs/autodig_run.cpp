@@ -8,6 +8,7 @@
 #include "app/machines/task_text.hpp"
 #include "app/runs/excavator_rig.hpp"
 #include "app/runs/fence_truth.hpp"
+#include "app/runs/plant_faults.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/dig/step_round.hpp"
 #include "firmware/excavator/motion/program/task_run.hpp"
@@ -42,7 +43,8 @@ class AutodigRun {
         program_(program),
         options_(options),
         kinematics_(machine.profile.geometry),
-        rig_(machine, book_of(program), options.start, options.speed_override_ratio) {
+        rig_(machine, book_of(program), options.start, options.speed_override_ratio),
+        faults_(excavator_plant_faults(), options.faults) {
     rig_.plant.plant().keep_account(&account_);
     result_.spool_edges = spool_edges(machine.plant);
     if (const auto& digging = machine.plant.digging; digging) {
@@ -53,7 +55,11 @@ class AutodigRun {
 
   AutodigResult run(const Progress& show) {
     const LoggedRun figures = run_logged(
-        rig_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
+        rig_, options_.log_file,
+        [this](TimeUs now_us) {
+          faults_.apply(now_us, rig_.plant.faults(), rig_.plant_port);
+          return ended(now_us);
+        },
         [&](TimeUs now_us, double cycle_us) {
           look(now_us, cycle_us);
           const TaskProgress& at = rig_.ecu->outputs().status.progress;
@@ -96,8 +102,9 @@ class AutodigRun {
     }
     result_.end = AutodigEnd::kNotFinished;
     const double longer = in_layers(program_) ? kLongerInLayers : kLongerThanPlanned;
-    return seconds(now_us) > kApproach_s + longer * options_.rounds * planned_s(program_) /
-                                               options_.speed_override_ratio;
+    return seconds(now_us) >
+           options_.most_s.value_or(kApproach_s + longer * options_.rounds * planned_s(program_) /
+                                                      options_.speed_override_ratio);
   }
 
   /// The operator lets go of the task, and half a second later asks for it anew.
@@ -252,6 +259,7 @@ class AutodigRun {
   SwingKinematics kinematics_;
   plant::EnergyAccount account_;
   AutodigRig rig_;
+  PlantFaultSchedule<plant::ExcavatorFaults> faults_;
   int round_ = 0;
   TimeUs waits_since_us_ = 0;
   AutodigResult result_;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct AutodigOptions {
   int rounds = 1;                  ///< Of a task that repeats.
   double word_after_s = 3.0;       ///< At a wait the operator asks for the task anew after so long.
   std::filesystem::path log_file;  ///< candump log; none if empty.
+  std::vector<std::string> faults;  ///< Of the machine, as told_fault() reads them.
+  std::optional<double> most_s;     ///< Simulated time after which it is given up.
 };
 
 /// State at one control cycle. Not a number: unknown, or of no meaning there.
@@ -154,6 +157,8 @@ struct AutodigSummary {
 [[nodiscard]] inline RunFigures figures_of(const AutodigSummary& summary) {
   return figures_of(autodig_figures(), summary, "share of time active per limit of lambda");
 }
+/// The same for who reads one run: of an area what was made of it stands first.
+[[nodiscard]] RunFigures headed_figures(const AutodigSummary& summary);
 
 /// A line for each step as it was done.
 [[nodiscard]] std::string steps_text(const AutodigSummary& summary);

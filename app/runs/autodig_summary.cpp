@@ -265,6 +265,16 @@ const FigureTable<AutodigSummary>& autodig_figures() {
   return all;
 }
 
+RunFigures headed_figures(const AutodigSummary& summary) {
+  RunFigures figures = figures_of(summary);
+  if (std::isfinite(summary.built.within_ratio)) {
+    lead_with({"built_within_ratio", "built_high_m", "built_low_m", "built_left_m3",
+               "built_over_cut_m3", "over_cut_max_m"},
+              figures);
+  }
+  return figures;
+}
+
 namespace {
 
 std::string end_words(const StepFigures& step) {

@@ -16,9 +16,13 @@ namespace {
 
 /// Set by SIGINT and SIGTERM: runs that have begun are finished, no more are begun.
 std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> interrupted_by{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
-void interrupt(int /*signal*/) { interrupted = true; }
+void interrupt(int signal) {
+  interrupted_by = signal;
+  interrupted = true;
+}
 
 constexpr std::uint64_t kMostSeed = 999999999999999999;  // What a file's seed may have.
 
@@ -141,6 +145,7 @@ CampaignOutcome run_campaign(const CampaignOptions& options, const CampaignKind&
   Campaign(draw, log, std::move(seeds), progress).run(jobs);
   write_campaign(options.summary, kind, log.data());
   CampaignOutcome outcome;
+  outcome.signal = interrupted_by;
   outcome.table = campaign_table(kind, log.data(), asked);
   const auto failed =
       std::count_if(log.data().rows.begin(), log.data().rows.end(),

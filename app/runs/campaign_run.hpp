@@ -25,6 +25,7 @@ struct CampaignOptions {
 struct CampaignOutcome {
   std::string table;
   std::string error;
+  int signal = 0;  ///< That ended it early, as SIGINT; 0: none.
 };
 
 /// Digging and grading campaigns. Each draws what the file lacks; SIGINT and SIGTERM let the runs

@@ -8,6 +8,7 @@
 
 #include "app/runs/excavator_rig.hpp"
 #include "app/runs/path_progress.hpp"
+#include "app/runs/plant_faults.hpp"
 
 namespace graben::runs {
 namespace {
@@ -24,14 +25,19 @@ class DigRun {
         kinematics_(machine.profile.geometry),
         field_(machine.profile, kinematics_),
         path_(machine.profile.dig_path),
-        progress_(path_, options.loops) {
+        progress_(path_, options.loops),
+        faults_(excavator_plant_faults(), options.faults) {
     rig_.plant.plant().keep_account(&account_);
     result_.spool_edges = spool_edges(machine.plant);
   }
 
   DigResult run(const Progress& show) {
     const LoggedRun figures = run_logged(
-        rig_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
+        rig_, options_.log_file,
+        [this](TimeUs now_us) {
+          faults_.apply(now_us, rig_.plant.faults(), rig_.plant_port);
+          return ended(now_us);
+        },
         [&](TimeUs now_us, double cycle_us) {
           look(now_us, cycle_us);
           show(progress_.share(), progress_.on_path() ? "on the path" : "approaching the path");
@@ -172,6 +178,7 @@ class DigRun {
   DigField field_;
   RoundedRectangle path_;
   PathProgress progress_;
+  PlantFaultSchedule<plant::ExcavatorFaults> faults_;
   TimeUs reached_us_ = 0;
   DigResult result_;
 };

@@ -21,10 +21,11 @@ namespace graben::runs {
 struct DigOptions {
   Eigen::Vector3d start_strokes_m = Eigen::Vector3d::Zero();
   double speed_override_ratio = 1.0;
-  double loops = 1.0;              ///< Times round the path once it is reached.
-  double approach_max_s = 90.0;    ///< To reach the path.
-  double loop_max_s = 120.0;       ///< For each time round it.
-  std::filesystem::path log_file;  ///< candump log; none if empty.
+  double loops = 1.0;               ///< Times round the path once it is reached.
+  double approach_max_s = 90.0;     ///< To reach the path.
+  double loop_max_s = 120.0;        ///< For each time round it.
+  std::filesystem::path log_file;   ///< candump log; none if empty.
+  std::vector<std::string> faults;  ///< Of the machine, as told_fault() reads them.
 };
 
 /// A period of the lowest mode of the linkage on its oil.

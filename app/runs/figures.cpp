@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -17,6 +18,14 @@ double plain_number(double value, int digits) {
 std::string shown_value(const FigureValue& figure) {
   const ShownUnit& unit = figure.info->unit;
   return fmt::format("{:.{}f}", unit.per_si * figure.value, unit.decimals);
+}
+
+void lead_with(const std::vector<std::string>& names, RunFigures& figures) {
+  const auto place = [&](const FigureValue& figure) {
+    return std::find(names.begin(), names.end(), figure.info->name) - names.begin();
+  };
+  std::stable_sort(figures.values.begin(), figures.values.end(),
+                   [&](const FigureValue& a, const FigureValue& b) { return place(a) < place(b); });
 }
 
 std::string figures_text(const RunFigures& figures) {

@@ -103,6 +103,9 @@ template <class Summary>
   return figures;
 }
 
+/// Puts the figures of these names first, in this order.
+void lead_with(const std::vector<std::string>& names, RunFigures& figures);
+
 /// "8.6", in the figure's unit.
 [[nodiscard]] std::string shown_value(const FigureValue& figure);
 /// A line for each figure that the run has, then one for each share.
@@ -166,19 +169,20 @@ template <class Sample>
 template <class Summary>
 [[nodiscard]] FigureTable<Summary> with_pace(FigureTable<Summary> table) {
   using S = Summary;
-  return joined<S>(std::move(table),
-                   {
-                       {{"duration_s", "simulated time of the run", kSeconds},
-                        [](const S& s) { return s.pace.duration_s; }},
-                       {{"real_time_factor", "times faster than real", kTimes},
-                        [](const S& s) { return s.pace.real_time_factor; }},
-                       {{"cycles", "control cycles", kCount},
-                        [](const S& s) { return static_cast<double>(s.pace.cycles); }},
-                       {{"cycle_median_us", "controller's cycle, median", kMicroseconds},
-                        [](const S& s) { return s.pace.cycle_median_us; }},
-                       {{"cycle_max_us", "controller's cycle, max", kMicroseconds},
-                        [](const S& s) { return s.pace.cycle_max_us; }},
-                   });
+  return joined<S>(
+      std::move(table),
+      {
+          {{"duration_s", "simulated time of the run", kSeconds},
+           [](const S& s) { return s.pace.duration_s; }},
+          {{"real_time_factor", "times faster than real", kTimes},
+           [](const S& s) { return s.pace.real_time_factor; }},
+          {{"cycles", "control cycles", kCount},
+           [](const S& s) { return static_cast<double>(s.pace.cycles); }},
+          {{"cycle_median_us", "controller's cycle, on this computer, median", kMicroseconds},
+           [](const S& s) { return s.pace.cycle_median_us; }},
+          {{"cycle_max_us", "controller's cycle, on this computer, max", kMicroseconds},
+           [](const S& s) { return s.pace.cycle_max_us; }},
+      });
 }
 
 }  // namespace graben::runs

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/runs/dozer_rig.hpp"
+#include "app/runs/plant_faults.hpp"
 
 namespace graben::runs {
 namespace {
@@ -21,11 +22,16 @@ class GradeRun {
         options_(options),
         rig_(machine, options.speed_override_ratio),
         truth_(machine.profile),
-        start_m_(edge_x_m()) {}
+        start_m_(edge_x_m()),
+        faults_(dozer_plant_faults(), options.faults) {}
 
   GradeResult run(const Progress& show) {
     const LoggedRun figures = run_logged(
-        rig_, options_.log_file, [this](TimeUs now_us) { return ended(now_us); },
+        rig_, options_.log_file,
+        [this](TimeUs now_us) {
+          faults_.apply(now_us, rig_.plant.faults(), rig_.plant_port);
+          return ended(now_us);
+        },
         [&](TimeUs now_us, double cycle_us) {
           look(now_us, cycle_us);
           show((edge_x_m() - start_m_) / way_m(), fmt::format("at {:.1f} m", edge_x_m()));
@@ -54,7 +60,9 @@ class GradeRun {
     result_.end = GradeEnd::kNotFinished;
     const double speed_mps =
         options_.speed_override_ratio * machine_.profile.travel.speed_desired_mps;
-    return seconds(now_us) > status.pass * (kStart_s + kLongerThanWanted * way_m() / speed_mps);
+    return seconds(now_us) >
+           options_.most_s.value_or(status.pass *
+                                    (kStart_s + kLongerThanWanted * way_m() / speed_mps));
   }
 
   void look(TimeUs now_us, double cycle_us) {
@@ -171,6 +179,7 @@ class GradeRun {
   GradeRig rig_;
   GradeTruth truth_;
   double start_m_;
+  PlantFaultSchedule<plant::DozerFaults> faults_;
   GradeResult result_;
 };
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "app/machines/simulated/simulated_dozer.hpp"
@@ -18,7 +20,9 @@ namespace graben::runs {
 
 struct GradeOptions {
   double speed_override_ratio = 1.0;
-  std::filesystem::path log_file;  ///< candump log; none if empty.
+  std::filesystem::path log_file;   ///< candump log; none if empty.
+  std::vector<std::string> faults;  ///< Of the machine, as told_fault() reads them.
+  std::optional<double> most_s;     ///< Simulated time after which it is given up.
 };
 
 /// State at one control cycle, true and as the controller has it. What is measured is not a number
@@ -116,5 +120,10 @@ inline constexpr double kSpeedResolution_mps = 0.02;
 [[nodiscard]] inline RunFigures figures_of(const GradeSummary& summary) {
   return figures_of(grade_figures(), summary, "share of time active per limit of the speed");
 }
+/// The same for who reads one run: of a job in passes what it leaves stands first.
+[[nodiscard]] RunFigures headed_figures(const GradeSummary& summary);
+
+/// What is left out of the design's tolerance, with its figures; empty: nothing is.
+[[nodiscard]] std::string out_of_tolerance(const GradeSummary& summary, double tolerance_m);
 
 }  // namespace graben::runs

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -244,6 +246,25 @@ const FigureTable<GradeSummary>& grade_figures() {
        [](const S& s) { return s.halt_s; }},
   });
   return all;
+}
+
+RunFigures headed_figures(const GradeSummary& summary) {
+  RunFigures figures = figures_of(summary);
+  if (summary.passes > 1) {
+    lead_with({"ground_left_m", "over_cut_m", "passes"}, figures);
+  }
+  return figures;
+}
+
+std::string out_of_tolerance(const GradeSummary& summary, double tolerance_m) {
+  if (std::max(summary.ground_left_m, summary.over_cut_m) <= tolerance_m) {
+    return "";
+  }
+  return fmt::format(
+      "the grade is out of tolerance: up to {:.0f} mm left above the design and {:.0f} mm cut "
+      "below "
+      "it; grade.tolerance is {:.0f} mm",
+      1e3 * summary.ground_left_m, 1e3 * summary.over_cut_m, 1e3 * tolerance_m);
 }
 
 }  // namespace graben::runs

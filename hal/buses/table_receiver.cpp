@@ -125,7 +125,7 @@ bool TableReceiver::take_known(const CanFrame& frame, TimeUs now, ExcavatorInput
     return true;
   }
   const auto i = static_cast<std::size_t>(index);
-  if (links_.admit(frame, now) == MessageLinks::kNoMessage) {
+  if (links_.admit_as(index, frame, now) == MessageLinks::kNoMessage) {
     return true;
   }
   const TableMessage& message = table_->message[i];

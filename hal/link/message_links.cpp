@@ -171,9 +171,13 @@ int MessageLinks::admit(const CanFrame& frame, TimeUs now) {
     own_us_ = now;
     return kNoMessage;
   }
+  return admit_as(index, frame, now);
+}
+
+int MessageLinks::admit_as(int index, const CanFrame& frame, TimeUs now) {
   const auto i = static_cast<std::size_t>(index);
   const MessageRule& rule = rules_.rule[i];
-  if (frame.extended != rule.extended || frame.remote || frame.fd) {
+  if (frame.error || frame.extended != rule.extended || frame.remote || frame.fd) {
     count(i, &LinkCounters::wrong_kind);
     return kNoMessage;
   }

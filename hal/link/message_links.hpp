@@ -65,6 +65,8 @@ class MessageLinks {
 
   /// Index of the message whose data may be decoded, or kNoMessage; the reason is counted.
   [[nodiscard]] int admit(const CanFrame& frame, TimeUs now);
+  /// The same of a frame whose message is known, where two buses have messages of one id.
+  [[nodiscard]] int admit_as(int index, const CanFrame& frame, TimeUs now);
   /// After all frames of a cycle: index of a message of whose surplus the newest, `payload`, is
   /// still to be decoded, or kNoMessage. To be called until then.
   [[nodiscard]] int take_newest(dbc::Payload& payload);

@@ -30,9 +30,13 @@ const char* error_words(int error_number) {
 namespace {
 
 std::atomic<bool> g_stop{false};
+std::atomic<int> g_stop_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free, "or a signal handler could not set it");
 
-void on_stop_signal(int /*signal*/) { request_stop(); }
+void on_stop_signal(int signal) {
+  g_stop_signal.store(signal, std::memory_order_relaxed);
+  request_stop();
+}
 
 }  // namespace
 
@@ -50,6 +54,8 @@ ErrorText catch_stop_signals() {
 void request_stop() { g_stop.store(true, std::memory_order_relaxed); }
 
 bool stop_requested() { return g_stop.load(std::memory_order_relaxed); }
+
+int stop_signal() { return g_stop_signal.load(std::memory_order_relaxed); }
 
 namespace {
 

@@ -34,6 +34,8 @@ class ErrorText {
 [[nodiscard]] ErrorText catch_stop_signals();
 
 [[nodiscard]] bool stop_requested();
+/// The signal that asked for it last, as SIGINT; 0: none has.
+[[nodiscard]] int stop_signal();
 /// From anywhere, a signal handler too.
 void request_stop();
 

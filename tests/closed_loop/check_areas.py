@@ -55,7 +55,8 @@ def areas(digger, cells):
     assert "built" not in report_page.setup_of(digger.content("autodig.html"))["run"]
     assert air["cut_m3"] is None and air["over_cut_max_m"] < 10 * MM, air["over_cut_max_m"]
     for line, needle in (
-            ('kind = "pit", far = 6.6, near = 4.4, depth = 0.8', "area.kind"),
+            ('kind = "moat", far = 6.6, near = 4.4, depth = 0.8', "area.kind"),
+            ('kind = "pit", far = 6.6, near = 4.4, depth = 0.8', "area.width"),
             ('kind = "trench", far = 4.4, near = 6.6, depth = 0.8', "area.near (line 1): 6.6 m; allowed: less"),
             ('kind = "trench", far = 6.6, near = 4.4, depth = 9.0', "area.depth"),
             ('kind = "trench", far = 6.6, near = 4.4, depth = 0.8, width = 1.0', "area.width"),

@@ -87,7 +87,7 @@ def goes_on(graben, folder, whole, kind):
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=1800)
     rows = content(file).splitlines()[2:]
-    assert process.returncode == 1 and "goes on" in err, (process.returncode, err)
+    assert process.returncode == 130 and "goes on" in err, (process.returncode, err)
     assert 1 < len(rows) < DRAWS, f"{len(rows)} rows after the interruption"
     assert f"interrupted with {len(rows)} of {DRAWS} draws done" in err, err
     assert f", {len(rows)} of {DRAWS} draws done\n" in out, out

@@ -218,7 +218,7 @@ def interrupted(graben):
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=1800)
-        assert process.returncode == 1 and err == "graben dig: interrupted; nothing was written\n", (out, err)
+        assert process.returncode == 130 and err == "graben dig: interrupted; nothing was written\n", (out, err)
         assert not os.listdir(folder), os.listdir(folder)
 
 

@@ -163,7 +163,7 @@ def figures_first(graben, folder):
     """A figure of another kind of run is refused before the run, which leaves nothing."""
     for needle, typed in (("--figure kim9: is of a run in soil; add --soil", "dig --figure kim11,kim9 --obstacle"),
                           ("--figure kim14: is of a run that meets", "dig --soil --figure kim14"),
-                          ("--figure mononen9: is of a constant speed", "grade --figure mononen9"),
+                          ("--figure mononen9: is of a constant speed", "grade --figure mononen7,mononen9"),
                           ("--figure mononen7: is of a bounded speed", "grade --speed-mode constant --figure mononen7")):
         refused(graben, needle.replace("kim9", "kim11"), *typed.split(), "--out", "unmade", folder=folder)
         assert not (folder / "unmade").exists(), f"{typed}: the run was made"

@@ -13,8 +13,11 @@
 #include "app/machines/axis_names.hpp"
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/new/commented_toml.hpp"
+#include "app/machines/new/data_sheet.hpp"
 #include "app/machines/new/profile_keys.hpp"
+#include "app/machines/new/scaled_values.hpp"
 #include "app/machines/toml_reader.hpp"
+#include "firmware/excavator/excavator_controller.hpp"
 
 namespace graben::machines {
 namespace {
@@ -76,7 +79,6 @@ const std::vector<const char*> kAskedOfDozer = {"body.mass_centre_height",
                                                 "blade.cylinder.rod",
                                                 "blade.cylinder.base",
                                                 "blade.cylinder.length_home",
-                                                "blade.L11",
                                                 "blade.range",
                                                 "implement.pump.displacement",
                                                 "implement.valve_flow_max",
@@ -123,42 +125,19 @@ std::optional<ProfileQuestion> question_of(const ProfileDocument& like,
   return question;
 }
 
-/// Links of the new machine over those of the old one.
-double reach_ratio(const ProfileDocument& like, const CommentedValues& told) {
-  double before_m = 0.0;
-  double after_m = 0.0;
-  for (const char* axis : kAxisNames) {
-    const std::string key = fmt::format("{}.length", axis);
-    const double length_m = like.root.at_path(key).value_or(0.0);
+/// Pivot to cylinder base follows from both pins.
+void set_blade_pins(const ProfileDocument& like, CommentedValues& told) {
+  const auto of = [&](const char* key) {
     const auto found = told.find(key);
-    before_m += length_m;
-    after_m += found == told.end() ? length_m : found->second.numbers.front();
-  }
-  return after_m / before_m;
-}
-
-void scale_path(const ProfileDocument& like, CommentedValues& told) {
-  const double ratio = reach_ratio(like, told);
-  if (ratio == 1.0) {
+    return found == told.end() ? numbers_of(*like.root.at_path(key).node()) : found->second.numbers;
+  };
+  if (told.count("blade.pivot") == 0 && told.count("blade.cylinder.base") == 0) {
     return;
   }
-  for (const char* key : {"task.path.x", "task.path.y", "task.path.corner_radius"}) {
-    std::vector<double> numbers = numbers_of(*like.root.at_path(key).node());
-    for (double& number : numbers) {
-      number *= ratio;
-    }
-    told[key] = {numbers,
-                 {},
-                 fmt::format("{}'s by the links' ratio, {:.3f}", like.file.stem().string(), ratio)};
-  }
-  const toml::array* corners = like.root.at_path("task.path.attitude").as_array();
-  CommentedValue attitude{{}, {}, "at the path's ends"};
-  for (std::size_t i = 0; corners != nullptr && i < corners->size(); ++i) {
-    std::vector<double> pair = numbers_of(*corners->get(i));
-    pair.front() *= ratio;
-    attitude.rows.push_back(pair);
-  }
-  told["task.path.attitude"] = attitude;
+  const std::vector<double> pivot_m = of("blade.pivot");
+  const std::vector<double> base_m = of("blade.cylinder.base");
+  told["blade.L11"] = {
+      {std::hypot(base_m[0] - pivot_m[0], base_m[1] - pivot_m[1])}, {}, "what the pins give"};
 }
 
 /// What pins and strokes give; where they give none, the check of what is written says so.
@@ -171,6 +150,54 @@ void set_joint_ranges(const std::string& text, CommentedValues& told) {
     told[fmt::format("{}.angle", kAxisNames[i])] = {
         {(*ranges)[i][0], (*ranges)[i][1]}, {}, "what pins and strokes give"};
   }
+}
+
+/// A path that is scaled need not lie in the new machine's reach: it is made smaller about its
+/// middle and shifted until it does; where nothing helps, the check of what is written says so.
+void fit_path(const ProfileDocument& document, const std::string& at, ExcavatorProfile profile,
+              const DigPath& path, CommentedValues& told) {
+  const double boom_m = profile.geometry.boom_length_m;
+  const auto fits = [&](const DigPath& tried) {
+    profile.dig_path = tried;
+    return profile_check(profile).path == ReachStatus::kOk;
+  };
+  if (fits(path)) {
+    return;
+  }
+  const double middle_x_m = 0.5 * (path.x_min_m + path.x_max_m);
+  const double middle_y_m = 0.5 * (path.y_min_m + path.y_max_m);
+  for (const double size : {1.0, 0.85, 0.7, 0.55, 0.4}) {
+    for (const double x : {0.0, -0.06, 0.06, -0.12, 0.12, -0.2}) {
+      for (const double y : {0.0, 0.06, -0.06, 0.12, -0.12, 0.2}) {
+        const double at_x_m = middle_x_m + x * boom_m;
+        const double at_y_m = middle_y_m + y * boom_m;
+        DigPath tried = path;
+        tried.x_min_m = at_x_m + size * (path.x_min_m - middle_x_m);
+        tried.x_max_m = at_x_m + size * (path.x_max_m - middle_x_m);
+        tried.y_min_m = at_y_m + size * (path.y_min_m - middle_y_m);
+        tried.y_max_m = at_y_m + size * (path.y_max_m - middle_y_m);
+        tried.corner_radius_m = size * path.corner_radius_m;
+        if (fits(tried)) {
+          const std::string from =
+              fmt::format("{}'s, brought into this machine's reach", document.file.stem().string());
+          told[at + ".x"] = {{tried.x_min_m, tried.x_max_m}, {}, from};
+          told[at + ".y"] = {{tried.y_min_m, tried.y_max_m}, {}, from};
+          told[at + ".corner_radius"] = {{tried.corner_radius_m}, {}, from};
+          told[at + ".attitude"] = {{},
+                                    {{tried.x_min_m, path.attitude_at_x_min_rad},
+                                     {tried.x_max_m, path.attitude_at_x_max_rad}},
+                                    "at the path's ends"};
+          return;
+        }
+      }
+    }
+  }
+}
+
+ExcavatorProfile profile_of(const std::string& text) {
+  const toml::table root = toml::parse(text);
+  TomlReader reader(root);
+  return read_excavator_sections(reader);
 }
 
 double norm_of(const std::vector<double>& numbers) {
@@ -224,8 +251,10 @@ void assert_fits(const ProfileDocument& like, const ProfileQuestion& question,
   }
 }
 
-std::string new_profile_text(const ProfileDocument& like, const std::string& name,
-                             const ProfileAnswers& answers) {
+namespace {
+
+/// What was answered, in SI units.
+CommentedValues told_by(const ProfileDocument& like, const ProfileAnswers& answers) {
   CommentedValues told;
   for (const ProfileQuestion& question : profile_questions(like)) {
     const auto answer = answers.find(question.key);
@@ -240,22 +269,63 @@ std::string new_profile_text(const ProfileDocument& like, const std::string& nam
     value.from += fmt::format(" {}", question.unit.name);
     told[question.key] = value;
   }
+  const auto weight = answers.find(kWeightKey);
+  if (weight != answers.end() && like.root.at_path("body.mass").node() != nullptr) {
+    const double weight_t = weight->second.front();
+    told["body.mass"] = {{1e3 * weight_t}, {}, fmt::format("told: {:.6g} t", weight_t)};
+  }
+  return told;
+}
+
+std::string head(const std::string& name, const std::string& after) {
+  return fmt::format(
+      "# {}: made by `graben new-machine` after {}. A value marked 'as {}' was not asked "
+      "for\n# or not told: check it before anything moves. SI units; frames as in the "
+      "reference of all keys.\n\n",
+      name, after, after);
+}
+
+}  // namespace
+
+std::string new_profile_text(const ProfileDocument& like, const std::string& name,
+                             const ProfileAnswers& answers) {
+  const CommentedValues answered = told_by(like, answers);
+  CommentedValues told = answered;
+  const bool is_dozer = profile_kind(like) == MachineKind::kDozer;
+  scale_profile(like, ratios_of(like, answers, answered), told);
+  set_blade_pins(like, told);
   const std::vector<KeyEntry> keys = profile_keys(like);
   const std::string like_name = like.file.stem().string();
   // It says every value itself, and the other file need not be beside it.
   toml::table root = like.root;
   root.erase("like");
   const auto text = [&] {
-    return fmt::format(
-               "# {}: made by `graben new-machine` after {}. A value marked 'as {}' was not asked "
-               "for\n# or not told: check it before anything moves. SI units; frames as in the "
-               "reference of all keys.\n\n",
-               name, like_name, like_name) +
-           commented_toml(root, keys, told, "as " + like_name);
+    return head(name, like_name) + commented_toml(root, keys, told, "as " + like_name);
+  };
+  if (!is_dozer) {
+    set_joint_ranges(text(), told);
+    const ExcavatorProfile profile = profile_of(text());
+    fit_path(like, "task.path", profile, profile.dig_path, told);
+  }
+  return text();
+}
+
+std::string new_simulation_text(const ProfileDocument& simulation, const ProfileDocument& like,
+                                const std::string& name, const ProfileAnswers& answers,
+                                const std::string& profile_text) {
+  const CommentedValues answered = told_by(like, answers);
+  CommentedValues told;
+  const Ratios ratios = ratios_of(like, answers, answered);
+  scale_simulation(simulation, ratios, told);
+  const std::string like_name = like.file.stem().string();
+  const auto text = [&] {
+    return head(name, like_name) + commented_toml(simulation.root, {}, told, "as " + like_name);
   };
   if (profile_kind(like) == MachineKind::kExcavator) {
-    scale_path(like, told);
-    set_joint_ranges(text(), told);
+    const toml::table root = toml::parse(text());
+    TomlReader reader(root);
+    fit_path(simulation, "experiment.air.path", profile_of(profile_text),
+             read_path(reader, "experiment.air.path"), told);
   }
   return text();
 }

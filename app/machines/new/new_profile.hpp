@@ -4,6 +4,7 @@
 /// and a spanner knows is asked for in units of the workshop; the rest stays, and says so.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,16 @@ void assert_fits(const ProfileDocument& like, const ProfileQuestion& question,
                  const std::vector<double>& numbers, const ProfileAnswers& answers);
 
 /// A profile's text: `like` with the answers, a comment with each key's meaning, unit and range,
-/// and where each value is from. An excavator's joint ranges are those that its pins give, and its
-/// path is as much longer as its links are. Values are not checked: load what was written.
+/// and where each value is from. What is not asked is scaled by what was (scaled_values.hpp). An
+/// excavator's joint ranges are those that its pins give, and its path is brought into its reach.
+/// Values are not checked: load what was written.
 [[nodiscard]] std::string new_profile_text(const ProfileDocument& like, const std::string& name,
                                            const ProfileAnswers& answers);
+
+/// The same of its simulation, for the profile of that text.
+[[nodiscard]] std::string new_simulation_text(const ProfileDocument& simulation,
+                                              const ProfileDocument& like, const std::string& name,
+                                              const ProfileAnswers& answers,
+                                              const std::string& profile_text);
 
 }  // namespace graben::machines

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/reports/check/likely.hpp"
 #include "app/reports/check/warnings.hpp"
 #include "firmware/dozer/blade.hpp"
 #include "firmware/dozer/tilt.hpp"
@@ -290,6 +291,7 @@ std::vector<Warning> dozer_warnings(const machines::DozerMachine& machine,
   if (profile.tilt.present) {
     expect_tilt(warnings, profile, simulated);
   }
+  expect_likely(warnings, profile);
   if (simulated != nullptr) {
     expect_plant(warnings, *simulated);
   }

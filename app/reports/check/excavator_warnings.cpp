@@ -4,6 +4,7 @@
 
 #include "app/machines/answer_section.hpp"
 #include "app/machines/axis_names.hpp"
+#include "app/reports/check/likely.hpp"
 #include "app/reports/check/warnings.hpp"
 
 namespace graben::reports {
@@ -240,10 +241,12 @@ std::vector<Warning> excavator_warnings(const machines::ExcavatorMachine& machin
   expect_valve(warnings, profile);
   expect_swing(warnings, profile);
   expect_task(warnings, profile);
+  expect_likely(warnings, profile);
   expect_times(warnings, profile.safety.settle_s, profile.control.sensor_timeout_s,
                profile.control.response_s);
   if (simulated != nullptr) {
     expect_plant(warnings, *simulated);
+    expect_same_machine(warnings, *simulated);
   }
   return warnings.take();
 }

@@ -94,9 +94,9 @@ double most(const std::vector<GradeSample>& samples, const Of& of) {
   return found;
 }
 
-bool is_of_constant_speed(const std::string& name) { return name == "mononen9"; }
-
 }  // namespace
+
+bool is_of_constant_speed(const std::string& name) { return name == "mononen9"; }
 
 const std::vector<std::string>& mononen_figure_names() {
   static const std::vector<std::string> names = {"mononen7", "mononen8", "mononen9"};

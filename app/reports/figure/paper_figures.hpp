@@ -35,6 +35,8 @@ void assert_kim_figures(const std::vector<std::string>& names,
 /// Before the run, as mononen_figure() after it: throws std::runtime_error where one of them is of
 /// the other kind of speed.
 void assert_mononen_figures(const std::vector<std::string>& names, bool is_constant_speed);
+/// Of these figures, one that the paper has of a constant speed.
+[[nodiscard]] bool is_of_constant_speed(const std::string& name);
 
 /// 7 and 8 are of the bounded speed, 9 of a constant one. Throws std::runtime_error where the run
 /// is not of that kind.

@@ -18,9 +18,10 @@ namespace {
 /// How often it is looked whether to end, and pages are given what they may say.
 constexpr lws_usec_t kTickUs = 100000;
 /// Of a connection that has sent no whole request, and of one that asks for nothing more.
-constexpr int kRequestTimeout_s = 5;
+constexpr int kRequestTimeout_s = 2;
 /// Pages, connections that ask for one, and what the library has itself.
-constexpr unsigned kSocketsMost = 128;
+/// A few hundred that never say a whole request are held beside a page that does.
+constexpr unsigned kSocketsMost = 640;
 /// So much is handed to the kernel at once; what it does not take waits in the library.
 constexpr std::size_t kSendMostBytes = ClientStream::kMessageMostBytes;
 

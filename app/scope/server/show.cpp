@@ -7,11 +7,13 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <regex>
 #include <stdexcept>
 #include <vector>
 
@@ -64,6 +66,17 @@ bool is_packed(int file) {
   return pread(file, begin.data(), begin.size(), 0) == 2 && begin[0] == 0x1f && begin[1] == 0x8b;
 }
 
+/// A section or a key before anything that begins as a frame does: what the page can't judge better
+/// is said here already.
+bool reads_like_toml(int file) {
+  std::string head(4096, '\0');
+  const ssize_t got = pread(file, head.data(), head.size(), 0);
+  head.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  static const std::regex kLine(R"((^|\n)[ \t]*(\[\[?[\w.-]+\]\]?|[\w."-]+[ \t]*=[^\n]))");
+  static const std::regex kFrame(R"((^|\n)[ \t]*\()");
+  return std::regex_search(head, kLine) && !std::regex_search(head, kFrame);
+}
+
 /// Throws where it is no log; closed by whoever has it.
 LogFile open_log(const std::filesystem::path& name) {
   // Without O_NONBLOCK a pipe that nobody writes to would be waited for.
@@ -86,6 +99,12 @@ LogFile open_log(const std::filesystem::path& name) {
   if (problem != nullptr) {
     close(file);
     fail(name, problem);
+  }
+  if (reads_like_toml(file)) {
+    close(file);
+    fail(name,
+         fmt::format("reads like TOML, as a profile or a task; wanted: {}", machines::kWantedLog)
+             .c_str());
   }
   if (!is_packed(file)) {
     return {file, static_cast<std::uint64_t>(status.st_size)};

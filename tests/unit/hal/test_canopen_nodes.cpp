@@ -180,3 +180,41 @@ TEST(a_port_lets_heartbeats_and_emergencies_through) {
   }
   assert_int_equal(found, 2);
 }
+
+/// Encoders on boom and arm, both node 11, each on its own bus and with a message of its own
+/// length.
+BusTable two_encoders() {
+  BusTable made = encoder();
+  made.node_count = 2;
+  made.node[1] = {kNode, 0, 250 * kMillisecondUs};
+  made.message_count = 2;
+  made.rule[1] = made.rule[0];
+  made.rule[1].length = 6;
+  made.message[1] = made.message[0];
+  made.message[1].bus = 0;
+  made.message[1].node = 1;
+  made.message[1].first = 1;
+  made.source_count = 2;
+  made.source[1] = made.source[0];
+  made.source[1].index = 1;
+  return made;
+}
+
+TEST(two_nodes_of_one_id_on_two_buses) {
+  Bus bus{two_encoders()};
+  const auto both = [&] {
+    bus.take(kPosition, 4, {0x30, 0x75, 0x00, 0x00}, 1);
+    bus.take(kPosition, 6, {0x40, 0x9C, 0x00, 0x00}, 0);
+    bus.pass();
+  };
+  const auto& axis = bus.receiver.inputs().axis;
+  bus.says(0x05, 1);
+  both();
+  assert_true(axis[0].stroke_m.validity == Validity::kValid);
+  assert_true(axis[1].stroke_m.validity != Validity::kValid);
+  bus.says(0x05, 0);
+  both();
+  assert_true(axis[1].stroke_m.validity == Validity::kValid);
+  assert_near(axis[0].stroke_m.value, 0.3, 1e-9);
+  assert_near(axis[1].stroke_m.value, 0.4, 1e-9);
+}

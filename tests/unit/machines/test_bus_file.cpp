@@ -77,6 +77,14 @@ TEST(errors_name_message_signal_and_line) {
   assert_says(with(whole, "width = 16", "width = 33"), {"signal Speed", "(line 13)", "1 .. 32"});
   assert_says(with(whole, "width = 16", "wide = 16"), {"signal Speed", "width: missing"});
   assert_says(whole + kMessage + kSignal, {"(line 17)", "its id is that of another message"});
+  // Of one id on another bus it is another message.
+  const auto on = [](const char* name) {
+    return with(kMessage, "id = 0x123", "id = 0x123\ninterface = \"" + std::string(name) + "\"");
+  };
+  const std::string two = kHead + "[[interface]]\nname = \"a\"\n[[interface]]\nname = \"b\"\n";
+  assert_says(two + on("a") + kSignal + on("a") + kSignal, {"its id is that of another message"});
+  const std::string pressure = with(kSignal, "engine_speed\"", "cap_pressure\"\nof = \"boom\"");
+  assert_false(has(refusal(two + on("a") + kSignal + on("b") + pressure), "its id is that"));
   assert_says("bus = \"test\"\n" + kMessage + kSignal,
               {"nothing says a stroke, joint_angle", "nothing takes the boom's duty"});
 }
@@ -320,4 +328,20 @@ TEST(a_profile_of_another_bus_is_another) {
   const std::string bus = zx200_text();
   assert_true(hash_on(bus) == hash_on("# a comment\n" + bus));
   assert_true(hash_on(bus) != hash_on(with(bus, "timeout = 0.035", "timeout = 0.030")));
+}
+
+/// A profile in any folder names shipped ones, as --profile and --bus do.
+TEST(shipped_files_are_found_from_anywhere) {
+  const std::string like = "kind = \"excavator\"\nlike = \"excavator_22t\"\n";
+  const WrittenFile alone("mine.toml", like + "[boom]\nradius = 0.5\n");
+  const machines::ExcavatorMachine machine = machines::load_excavator(alone.path());
+  assert_near(machine.profile.geometry.boom_length_m, 5.7, 0.0);
+  assert_near(machine.profile.geometry.body.boom_radius_m, 0.5, 0.0);
+  const WrittenFile put("mine.toml", like + "bus = \"zx200\"\n");
+  const auto load = [](const std::filesystem::path& file) {
+    static_cast<void>(machines::load_excavator(file));
+  };
+  assert_false(has(refusal_of([&] { load(put.path()); }), "there is no such file"));
+  const WrittenFile wrong("mine.toml", like + "bus = \"zx201\"\n");
+  assert_true(has(refusal_of([&] { load(wrong.path()); }), "'zx201': there is no such file"));
 }

@@ -30,3 +30,23 @@ TEST(an_area_s_errors_name_its_table) {
   assert_says(with("far = 4.0, depth = 0.2"), "area.near (line 1): 4.4 m; allowed: less than far");
   assert_says(with("far = 6.6, depth = 5.0"), "area (line 1): step 0 (dig): out of the reach");
 }
+
+TEST(a_pit_has_a_width_and_any_ground_a_slope) {
+  const auto area = [](const std::string& keys) {
+    return "area = { far = 6.6, near = 4.6, depth = 0.3, " + keys + " }\n";
+  };
+  const auto request = [&](const std::string& keys) {
+    const Written file(area(keys));
+    return machines::load_task(file.path(), profile("excavator_12t")).request;
+  };
+  // A bucket of 1 m, strips that overlap by 0.15 of it.
+  assert_int_equal(request("kind = \"pit\", width = 1.0").step[0].strips, 1);
+  assert_int_equal(request("kind = \"pit\", width = 2.6").step[0].strips, 3);
+  assert_says(
+      errors_of(area("kind = \"pit\", width = 6.0")),
+      "area.width (line 1): 6 m are 7 strips of a bucket of 1 m; allowed: 5 strips, 4.40 m");
+  assert_says(errors_of(area("kind = \"pit\"")), "area.width: missing");
+  assert_near(request("kind = \"level\"").design.up.x(), 0.0, 1e-12);
+  const auto fall = request("kind = \"level\", depth_near = 0.4").design.up;
+  assert_near(fall.x() / fall.z(), -0.1 / 2.0, 1e-9);
+}

@@ -173,3 +173,15 @@ TEST(what_has_not_arrived_is_told) {
   summary = summarise(program, result);
   assert_true(!summary.steps[0].arrived && summary.steps[1].arrived);
 }
+
+/// Teeth are not where the ground is: what was made of an area heads its figures.
+TEST(what_is_left_heads_an_area) {
+  AutodigSummary summary;
+  assert_string_equal(headed_figures(summary).values.front().info->name, "max_error_true_m");
+  summary.built.within_ratio = 0.98;
+  const RunFigures figures = headed_figures(summary);
+  assert_string_equal(figures.values[0].info->name, "built_within_ratio");
+  assert_string_equal(figures.values[5].info->name, "over_cut_max_m");
+  assert_string_equal(figures.values[6].info->name, "max_error_true_m");
+  assert_int_equal(figures.values.size(), autodig_figures().size());
+}

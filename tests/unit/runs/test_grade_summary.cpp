@@ -155,3 +155,35 @@ TEST(calm_is_of_the_time_over_the_grade) {
   assert_near(summary.spool_travel_ps, 8.0 / 3.98, 1e-9);
   assert_near(summary.edge_jerk_rms_mps3, 2.0, 1e-5);
 }
+
+/// A job in passes is headed by what it leaves; one pass by its edge, as before.
+TEST(what_is_left_heads_a_job_in_passes) {
+  GradeSummary summary;
+  summary.max_error_true_m = 1.106;
+  summary.ground_left_m = 0.039;
+  summary.over_cut_m = 0.049;
+  assert_string_equal(headed_figures(summary).values.front().info->name, "max_error_true_m");
+  summary.passes = 4;
+  const runs::RunFigures figures = headed_figures(summary);
+  assert_string_equal(figures.values[0].info->name, "ground_left_m");
+  assert_string_equal(figures.values[1].info->name, "over_cut_m");
+  assert_string_equal(figures.values[2].info->name, "passes");
+  assert_string_equal(figures.values[3].info->name, "max_error_true_m");
+  assert_int_equal(figures.values.size(), runs::grade_figures().size());
+  // A campaign's columns stand in the table's order.
+  assert_string_equal(figures_of(summary).values[0].info->name, "max_error_true_m");
+}
+
+TEST(a_grade_out_of_tolerance_is_said) {
+  GradeSummary summary;
+  summary.ground_left_m = 0.02;
+  summary.over_cut_m = 0.02;
+  assert_string_equal(runs::out_of_tolerance(summary, 0.02).c_str(), "");
+  summary.ground_left_m = 0.039;
+  assert_string_equal(runs::out_of_tolerance(summary, 0.02).c_str(),
+                      "the grade is out of tolerance: up to 39 mm left above the design and 20 mm "
+                      "cut below it; grade.tolerance is 20 mm");
+  summary.ground_left_m = 0.0;
+  summary.over_cut_m = 0.049;
+  assert_non_null(strstr(runs::out_of_tolerance(summary, 0.02).c_str(), "49 mm cut below"));
+}

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "app/runs/code_text.hpp"
+#include "app/runs/dig_run.hpp"
+#include "app/runs/grade_run.hpp"
 #include "app/runs/plant_faults.hpp"
 #include "firmware/safety/cycle.hpp"
 #include "firmware/safety/fault_table.hpp"
@@ -174,4 +176,38 @@ TEST(the_pilot_pressure_goes_and_comes_back_as_it_is_told) {
   assert_false(told(Fault::kSpoolStuck, Fault::kUncommandedMotion));
   assert_false(told(Fault::kSpoolMissing, Fault::kStrokeMissing));
   assert_false(told(Fault::kSpoolMissing, Fault::kSpoolStuck));
+}
+
+/// As `plant` has it, of the runs in memory.
+TEST(a_fault_stops_a_run_in_memory) {
+  const auto show = [](double, const std::string&) {};
+  const machines::SimulatedExcavator excavator =
+      machines::load_simulated_excavator(machines::find_profile("excavator_22t"));
+  DigOptions dig;
+  dig.start_strokes_m = machines::dig_start(excavator.profile);
+  dig.faults = {"boom-stroke:step=0.4@1.0"};
+  const DigResult dug = run_dig(excavator, dig, show);
+  assert_true(dug.end == DigEnd::kFault);
+  assert_true(dug.samples.back().time_s > 1.0 && dug.samples.back().time_s < 1.3);
+  const machines::SimulatedDozer dozer =
+      machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
+  GradeOptions grade;
+  grade.faults = {"engine:runs=0@1.0"};
+  const GradeResult graded = run_grade(dozer, grade, show);
+  assert_true(graded.end == GradeEnd::kFault);
+  assert_true(graded.samples.back().time_s > 0.99 && graded.samples.back().time_s < 1.5);
+  grade.faults = {"boom-stroke:frozen@1"};
+  assert_non_null(
+      strstr(graben::test::refusal_of([&] { return run_grade(dozer, grade, show); }).c_str(),
+             "unknown to this machine; known: blade-spool:held"));
+}
+
+TEST(a_run_is_given_up_when_told) {
+  const machines::SimulatedDozer dozer =
+      machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
+  GradeOptions grade;
+  grade.most_s = 1.0;
+  const GradeResult result = run_grade(dozer, grade, [](double, const std::string&) {});
+  assert_true(result.end == GradeEnd::kNotFinished);
+  assert_near(result.samples.back().time_s, 1.0, 0.02);
 }

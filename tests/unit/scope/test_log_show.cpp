@@ -74,6 +74,13 @@ TEST(what_is_no_log_is_refused) {
   assert_refused(std::filesystem::temp_directory_path(),
                  (std::string("is a folder; wanted: ") + machines::kWantedLog).c_str());
   assert_refused(empty.path(), "is empty");
+  const std::string toml =
+      std::string("reads like TOML, as a profile or a task; wanted: ") + machines::kWantedLog;
+  for (const char* text :
+       {"# A machine\nkind = \"excavator\"\n", "[[step]]\ndo = \"dig\"\n", "[boom]\n"}) {
+    const TemporaryFile profile(text);
+    assert_refused(profile.path(), toml.c_str());
+  }
   assert_refused("/dev/null",
                  "is no regular file; what is sent through it can be written to one first");
 }

@@ -154,3 +154,16 @@ TEST(other_addresses_are_known_as_such) {
   assert_true(named.port() > 0);
   assert_has(named.url(), ":" + std::to_string(named.port()) + "/");
 }
+
+/// Connections that never finish their request are held beside a page that comes after them.
+TEST(many_slow_connections_keep_no_page_out) {
+  ScriptRig rig(1);
+  std::vector<std::unique_ptr<test::TcpPeer>> slow;
+  for (int i = 0; i < 300; ++i) {
+    slow.push_back(std::make_unique<test::TcpPeer>(rig.port()));
+    assert_true(slow.back()->is_connected() && slow.back()->send("GET / HT"));
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  assert_begins(get(rig.port(), "/", own_host(rig.port())), "HTTP/1.1 200");
+  assert_true(std::chrono::steady_clock::now() - begin < std::chrono::seconds(2));
+}

@@ -106,3 +106,13 @@ test('what a controller still waits for before it is ready is no fault', () => {
   const broken = page(stroke(0) + status(0, 5, 21));
   assert.match(alarms(broken).fault!, /fault 21/);
 });
+
+test('of an area that was built no moment of the teeth is told as the worst', () => {
+  const came = new Set(loadDatabase('excavator').messages.keys());
+  const run = {title: '', subtitle: '', summary: [], limits_share: [], truth: {time_s: [], lines: []}};
+  const built = {x_m: [1], y_m: [0], cell_m: 0.1, off_mm: [1], firm_mm: [1]};
+  const arrived = (of: typeof run) => plots_of({kind: 'excavator', pumps: 2}, of, came)
+    .find(({name}) => name === 'error')!.arrived;
+  assert.equal(typeof arrived(run), 'number');
+  assert.equal(arrived({...run, built} as typeof run), undefined);
+});

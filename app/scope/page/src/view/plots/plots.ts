@@ -254,7 +254,14 @@ export function plots_of(
   const plots = all.map((plot) => ({
     ...plot, lines: plot.lines.filter(({trace}) => came.has(trace.message ?? '')),
   })).filter(({lines}) => lines.length > 0);
-  return run === undefined ? plots : with_truth(plots, run);
+  return run === undefined ? plots : with_truth(run.built === undefined ? plots
+    : plots.map(without_greatest), run);
+}
+
+/// Of an area what is left of the ground counts: where the teeth were farthest off says nothing of it.
+function without_greatest(plot: PlotSpec): PlotSpec {
+  const {arrived, ...rest} = plot;
+  return arrived === undefined ? plot : rest;
 }
 
 const TRUTH_COLOURS = ['true', 'first', 'second', 'error', 'lambda'];
