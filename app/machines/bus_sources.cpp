@@ -108,8 +108,8 @@ std::uint8_t read_node_of(TomlReader& reader, const BusTable& table, const Decla
 void check_received(TomlReader& reader, const BusTable& table, std::size_t message,
                     const std::string& key) {
   for (std::size_t i = 0; i < message; ++i) {
-    if (table.rule[i].id == table.rule[message].id) {
-      reader.fail(key, "its id is that of another message");
+    if (same_message(table.rule[i].id, table.rule[message].id)) {
+      reader.fail(key, "its id is that of another message, whatever its priority");
     }
   }
   const std::size_t end = std::size_t{table.message[message].first} + table.message[message].count;

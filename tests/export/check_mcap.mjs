@@ -225,7 +225,7 @@ async function foreign_buses() {
   const {messages: imus} = await read_all(join(out, 'imu.mcap'));
   compare_foreign(join(out, 'imu', 'dig.log'), imus, {
     '0CF02AE2': ['/sensor/E2/ARI', {PitchRate_radps: (_, word) => DEGREE * (word(0) / 128 - 250)}],
-    '0CF02DE4': ['/sensor/E4/ACS', {Vertical_mps2: (_, word) => word(4) / 100 - 320, LateralMerit: (b) => ((b[6] & 3) < 2 ? b[6] & 3 : undefined)}],
+    '08F02DE4': ['/sensor/E4/ACS', {Vertical_mps2: (_, word) => word(4) / 100 - 320, LateralMerit: (b) => ((b[6] & 3) < 2 ? b[6] & 3 : undefined)}],
   });
   console.log(`bus of the machine's own, encoders, IMUs: ${encoders.length + imus.length} messages`);
 }

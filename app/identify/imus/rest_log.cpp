@@ -148,7 +148,7 @@ void Reader::take(const LoggedFrame& frame) {
     fail(frame.line, fmt::format("its clock goes back by {:.3f} s", last_s_ - frame.time_s));
   }
   last_s_ = std::max(last_s_, frame.time_s);
-  if (frame.extended && frame.id == dbc::excavator::MachineIdentity::kId) {
+  if (frame.extended && same_message(frame.id, dbc::excavator::MachineIdentity::kId)) {
     return identify(frame);
   }
   CanFrame can;
@@ -340,7 +340,9 @@ RestLog read_rests(const std::filesystem::path& file, const ImuProfile& imus) {
   RestLog log;
   log.name = file.filename().string();
   Reader reader(log.name, imus);
-  log.sha256 = read_candump(file, [&](const LoggedFrame& frame) { reader.take(frame); });
+  const LogRead read = read_candump(file, [&](const LoggedFrame& frame) { reader.take(frame); });
+  log.sha256 = read.sha256;
+  log.notes = read.notes();
   reader.assert_heard();
   log.profile_hash = reader.profile_hash();
   log.length_s = reader.length_s();

@@ -34,6 +34,7 @@ struct RestLog {
   std::uint32_t profile_hash = 0;  ///< That the machine said; 0: it said none.
   double length_s = 0.0;
   std::vector<Rest> rests;
+  std::vector<std::string> notes;  ///< LogRead's.
 };
 
 /// Reads a log, plain or gzip. Throws std::runtime_error that names file, line and reason: not

@@ -4,21 +4,22 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <unordered_map>
 
 #include "app/identify/lines.hpp"
+#include "app/identify/machine/candump_line.hpp"
 #include "app/machines/missing_file.hpp"
+#include "can_dbc/generated/dozer_dbc.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "hal/can_frame.hpp"
 
 namespace graben::identify {
 namespace {
-
-/// How can-utils mark what is a report of the bus controller: CAN_ERR_FLAG.
-constexpr std::uint32_t kErrorFlag = 0x20000000U;
-constexpr std::size_t kExtendedDigits = 8;
 
 class Sha256 {
  public:
@@ -43,99 +44,125 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
 };
 
-std::string_view next_word(std::string_view& rest) {
-  const std::size_t from = std::min(rest.find_first_not_of(' '), rest.size());
-  rest.remove_prefix(from);
-  const std::size_t until = std::min(rest.find(' '), rest.size());
-  const std::string_view word = rest.substr(0, until);
-  rest.remove_prefix(until);
-  return word;
-}
-
-template <class Number>
-bool read(std::string_view text, Number& number, int base) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
-/// "(1700000000.123456)" as seconds.
-bool read_time(std::string_view text, double& time_s) {
-  if (text.size() < 4 || text.front() != '(' || text.back() != ')') {
-    return false;
-  }
-  text = text.substr(1, text.size() - 2);
-  const std::size_t point = text.find('.');
-  std::int64_t seconds = 0;
-  std::int64_t micros = 0;
-  if (point == std::string_view::npos || text.size() - point - 1 != 6 ||
-      !read(text.substr(0, point), seconds, 10) || !read(text.substr(point + 1), micros, 10) ||
-      seconds < 0 || micros < 0) {
-    return false;
-  }
-  time_s = static_cast<double>(seconds) + 1e-6 * static_cast<double>(micros);
-  return true;
-}
-
-enum class Kind { kData, kOther, kBroken };
-
-/// "0CFF2080#00112233": id and data.
-Kind read_frame(std::string_view text, LoggedFrame& frame) {
-  const std::size_t hash = text.find('#');
-  if (hash == std::string_view::npos || !read(text.substr(0, hash), frame.id, 16)) {
-    return Kind::kBroken;
-  }
-  frame.extended = hash == kExtendedDigits;
-  const std::string_view data = text.substr(hash + 1);
-  if ((frame.extended && (frame.id & kErrorFlag) != 0U) || (!data.empty() && data[0] == 'R') ||
-      (!data.empty() && data[0] == '#')) {
-    return Kind::kOther;
-  }
-  if (data.size() % 2 != 0 || data.size() > 2 * frame.data.size()) {
-    return Kind::kBroken;
-  }
-  frame.length = static_cast<std::uint8_t>(data.size() / 2);
-  for (std::size_t at = 0; at < frame.length; ++at) {
-    if (!read(data.substr(2 * at, 2), frame.data[at], 16)) {
-      return Kind::kBroken;
+/// The id that one of our DBCs has for the same PGN and source, if any has.
+std::uint32_t own_id(std::uint32_t id) {
+  static const std::unordered_map<std::uint32_t, std::uint32_t> known = [] {
+    std::unordered_map<std::uint32_t, std::uint32_t> ids;
+    for (const dbc::MessageInfo& message : dbc::excavator::kMessages) {
+      ids.emplace(identity_of(message.id), message.id);
     }
-  }
-  return Kind::kData;
+    for (const dbc::MessageInfo& message : dbc::dozer::kMessages) {
+      ids.emplace(identity_of(message.id), message.id);
+    }
+    return ids;
+  }();
+  const auto found = known.find(identity_of(id));
+  return found == known.end() ? id : found->second;
+}
+
+[[noreturn]] void refuse(const std::string& where, const std::string& line) {
+  throw std::runtime_error(
+      fmt::format("{}: \"{}\" is not a line of candump -L, \"(seconds) interface id#data\"", where,
+                  line.substr(0, 60)));
+}
+
+std::string plural(std::size_t count, const char* one, const char* more) {
+  return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
 }  // namespace
 
-std::string read_candump(const std::filesystem::path& file,
-                         const std::function<void(const LoggedFrame&)>& take, CutLine cut) {
+std::vector<std::string> LogRead::notes() const {
+  std::vector<std::string> notes;
+  const auto say = [&](const std::string& what) { notes.push_back(name + ": " + what); };
+  if (lost > 0) {
+    say(fmt::format("{} lost as it was recorded (DROPCOUNT)",
+                    plural(lost, "frame was", "frames were")));
+  }
+  if (broken > 0) {
+    say(fmt::format("{} of candump's, left out; the first is line {}",
+                    plural(broken, "line is none", "lines are none"), first_broken));
+  }
+  if (is_cut) {
+    say("its last line is cut, and left out");
+  }
+  constexpr std::size_t kNamed = 3;
+  for (std::size_t i = 0; i < std::min(breaks.size(), kNamed); ++i) {
+    const ClockBreak& at = breaks[i];
+    say(at.by_s > 0.0
+            ? fmt::format("a gap of {:.2f} s before line {}; its pieces are counted apart", at.by_s,
+                          at.line)
+            : fmt::format(
+                  "its clock goes back by {:.2f} s at line {}; its pieces are counted apart",
+                  -at.by_s, at.line));
+  }
+  if (breaks.size() > kNamed) {
+    say(fmt::format("{} gaps and steps of its clock in all", breaks.size()));
+  }
+  if (disordered > 0) {
+    say(fmt::format("{} a stamp before that of the frame before, and {} its stamp",
+                    plural(disordered, "frame had", "frames had"),
+                    disordered == 1 ? "has" : "have"));
+  }
+  if (garbled > 0) {
+    say(fmt::format("{} left out, whose stamp fits no other",
+                    plural(garbled, "frame is", "frames are")));
+  }
+  return notes;
+}
+
+LogRead read_candump(const std::filesystem::path& file,
+                     const std::function<void(const LoggedFrame&)>& take) {
+  LogRead read;
+  read.name = file.string();
+  const LogClock::Take count = [&](const LoggedFrame& frame) {
+    ++read.frames;
+    take(frame);
+  };
+  LogClock clock(count);
   Lines lines(file.string(), machines::kWantedLog);
   Sha256 digest;
   std::string line;
-  LoggedFrame frame;
+  std::string first_broken;
+  std::size_t whole = 0;
   while (lines.next(line)) {
     digest.add(line);
     digest.add("\n");
+    const CandumpLine got = line.empty() ? CandumpLine{LineKind::kOther} : parse_candump(line);
     if (line.empty()) {
       continue;
     }
-    frame.line = lines.number();
-    std::string_view rest(line);
-    Kind kind = Kind::kBroken;
-    if (read_time(next_word(rest), frame.time_s)) {
-      next_word(rest);  // The interface: several may be in one log.
-      kind = read_frame(next_word(rest), frame);
+    if (got.kind == LineKind::kBroken && !lines.is_whole()) {
+      read.is_cut = true;
+      first_broken = first_broken.empty() ? line : first_broken;
+      continue;
     }
-    if (kind == Kind::kBroken && cut == CutLine::kPassedOver && !lines.is_whole()) {
-      break;
+    if (got.kind == LineKind::kBroken) {
+      if (read.broken++ == 0) {
+        read.first_broken = lines.number();
+        first_broken = line;
+      }
+      continue;
     }
-    if (kind == Kind::kBroken) {
-      throw std::runtime_error(
-          fmt::format("{}: \"{}\" is not a line of candump -L, \"(seconds) interface id#data\"",
-                      lines.where(), line.substr(0, 60)));
-    }
-    if (kind == Kind::kData) {
-      take(frame);
+    whole += got.kind == LineKind::kLost ? 0 : 1;
+    read.lost += got.lost;
+    read.other += got.kind == LineKind::kOther ? 1 : 0;
+    if (got.kind == LineKind::kFrame) {
+      LoggedFrame frame{lines.number(), got.time_s, got.id, got.extended, got.length, got.data};
+      frame.id = got.extended ? own_id(got.id) : got.id;
+      clock.judge(frame);
     }
   }
-  return digest.text();
+  clock.end();
+  if (read.broken > whole || (read.is_cut && whole == 0)) {
+    refuse(fmt::format("{}:{}", file.string(), std::max<std::size_t>(1, read.first_broken)),
+           first_broken);
+  }
+  read.sha256 = digest.text();
+  read.breaks = clock.breaks();
+  read.disordered = clock.disordered();
+  read.garbled = clock.garbled();
+  return read;
 }
 
 }  // namespace graben::identify
