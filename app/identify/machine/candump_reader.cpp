@@ -6,14 +6,19 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "app/identify/lines.hpp"
 #include "app/identify/machine/candump_line.hpp"
+#include "app/identify/machine/other_logs.hpp"
 #include "app/machines/missing_file.hpp"
+#include "app/machines/plain_text.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/can_frame.hpp"
@@ -111,58 +116,145 @@ std::vector<std::string> LogRead::notes() const {
   return notes;
 }
 
+namespace {
+
+/// Counts what comes, and hands frames on by the log's clock.
+class Reading {
+ public:
+  Reading(const std::filesystem::path& file, const std::function<void(const LoggedFrame&)>& take)
+      : count_([this, &take](const LoggedFrame& frame) {
+          ++read_.frames;
+          take(frame);
+        }),
+        clock_(count_) {
+    read_.name = file.string();
+  }
+  ~Reading() = default;
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+
+  void take(std::size_t number, const CandumpLine& line) {
+    whole_ += line.kind == LineKind::kLost ? 0 : 1;
+    read_.lost += line.lost;
+    read_.other += line.kind == LineKind::kOther ? 1 : 0;
+    if (line.kind == LineKind::kFrame) {
+      LoggedFrame frame{number, line.time_s, line.id, line.extended, line.length, line.data};
+      frame.id = line.extended ? own_id(line.id) : line.id;
+      clock_.judge(frame);
+    }
+  }
+
+  void take_broken(std::size_t number, const std::string& line, bool is_whole) {
+    if (first_broken_.empty()) {
+      first_broken_ = line;
+      read_.first_broken = number;
+    }
+    read_.broken += is_whole ? 1 : 0;
+    read_.is_cut = read_.is_cut || !is_whole;
+  }
+
+  LogRead end(std::string sha256) {
+    clock_.end();
+    if (read_.broken > whole_ || (read_.is_cut && whole_ == 0)) {
+      refuse(fmt::format("{}:{}", read_.name, read_.first_broken), first_broken_);
+    }
+    read_.sha256 = std::move(sha256);
+    read_.breaks = clock_.breaks();
+    read_.disordered = clock_.disordered();
+    read_.garbled = clock_.garbled();
+    return read_;
+  }
+
+ private:
+  LogRead read_;
+  LogClock::Take count_;
+  LogClock clock_;
+  std::string first_broken_;
+  std::size_t whole_ = 0;
+};
+
+/// The file's first bytes, unpacked or not; none where it can't be read, which is told later.
+std::string begin_of(const std::filesystem::path& file) {
+  constexpr std::size_t kBegin = 16;
+  std::string begin(kBegin, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+  return begin;
+}
+
+LogRead read_binary(const std::filesystem::path& file, Reading& reading) {
+  const std::string bytes = machines::file_text(file, machines::kWantedLog);
+  Sha256 digest;
+  digest.add(bytes);
+  const std::string wrong = read_blf(
+      bytes, [&](std::size_t number, const CandumpLine& line) { reading.take(number, line); });
+  if (!wrong.empty()) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), wrong));
+  }
+  return reading.end(digest.text());
+}
+
+}  // namespace
+
 LogRead read_candump(const std::filesystem::path& file,
                      const std::function<void(const LoggedFrame&)>& take) {
-  LogRead read;
-  read.name = file.string();
-  const LogClock::Take count = [&](const LoggedFrame& frame) {
-    ++read.frames;
-    take(frame);
-  };
-  LogClock clock(count);
+  Reading reading(file, take);
+  const std::string begin = begin_of(file);
+  if (const std::string what = foreign_log(begin); !what.empty()) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
+  }
+  if (is_blf(begin)) {
+    return read_binary(file, reading);
+  }
   Lines lines(file.string(), machines::kWantedLog);
+  std::optional<LogText> text;
   Sha256 digest;
   std::string line;
-  std::string first_broken;
-  std::size_t whole = 0;
   while (lines.next(line)) {
     digest.add(line);
     digest.add("\n");
-    const CandumpLine got = line.empty() ? CandumpLine{LineKind::kOther} : parse_candump(line);
     if (line.empty()) {
       continue;
     }
-    if (got.kind == LineKind::kBroken && !lines.is_whole()) {
-      read.is_cut = true;
-      first_broken = first_broken.empty() ? line : first_broken;
-      continue;
+    if (!text) {
+      text.emplace(line);
     }
+    const CandumpLine got = text->parse(line);
     if (got.kind == LineKind::kBroken) {
-      if (read.broken++ == 0) {
-        read.first_broken = lines.number();
-        first_broken = line;
-      }
-      continue;
-    }
-    whole += got.kind == LineKind::kLost ? 0 : 1;
-    read.lost += got.lost;
-    read.other += got.kind == LineKind::kOther ? 1 : 0;
-    if (got.kind == LineKind::kFrame) {
-      LoggedFrame frame{lines.number(), got.time_s, got.id, got.extended, got.length, got.data};
-      frame.id = got.extended ? own_id(got.id) : got.id;
-      clock.judge(frame);
+      reading.take_broken(lines.number(), line, lines.is_whole());
+    } else {
+      reading.take(lines.number(), got);
     }
   }
-  clock.end();
-  if (read.broken > whole || (read.is_cut && whole == 0)) {
-    refuse(fmt::format("{}:{}", file.string(), std::max<std::size_t>(1, read.first_broken)),
-           first_broken);
+  return reading.end(digest.text());
+}
+
+bool is_other_log(const std::filesystem::path& file) {
+  if (is_blf(begin_of(file))) {
+    return true;
   }
-  read.sha256 = digest.text();
-  read.breaks = clock.breaks();
-  read.disordered = clock.disordered();
-  read.garbled = clock.garbled();
-  return read;
+  Lines lines(file.string(), machines::kWantedLog);
+  std::string line;
+  while (lines.next(line)) {
+    if (!line.empty()) {
+      return !LogText(line).is_candump();
+    }
+  }
+  return false;
+}
+
+std::string candump_text(const std::filesystem::path& file) {
+  std::string text;
+  static_cast<void>(read_candump(file, [&](const LoggedFrame& frame) {
+    text += fmt::format(frame.extended ? "({:.6f}) can0 {:08X}#" : "({:.6f}) can0 {:03X}#",
+                        frame.time_s, frame.id);
+    for (unsigned i = 0; i < frame.length; ++i) {
+      text += fmt::format("{:02X}", frame.data[i]);
+    }
+    text += '\n';
+  }));
+  return text;
 }
 
 }  // namespace graben::identify

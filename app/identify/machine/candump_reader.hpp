@@ -43,9 +43,14 @@ struct LogRead {
 };
 
 /// Calls `take` for each data frame of up to 8 bytes, in the file's order; what else is in it is
-/// counted. Plain or gzip. Throws std::runtime_error with file and line where more lines are broken
-/// than whole, or the file cannot be read or is cut off.
+/// counted. Plain or gzip, or BLF. Throws std::runtime_error with file and line where more lines
+/// are broken than whole, or the file cannot be read or is cut off.
 LogRead read_candump(const std::filesystem::path& file,
                      const std::function<void(const LoggedFrame&)>& take);
+
+/// A log that is none of candump's, but one that is read (other_logs.hpp); for the page, which
+/// reads candump's alone, its frames as lines of those.
+[[nodiscard]] bool is_other_log(const std::filesystem::path& file);
+[[nodiscard]] std::string candump_text(const std::filesystem::path& file);
 
 }  // namespace graben::identify
