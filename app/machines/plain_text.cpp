@@ -102,7 +102,9 @@ bool is_utf16(std::string_view text) {
     return false;
   }
   const std::string_view mark = text.substr(0, 2);
-  return mark == "\xFF\xFE" || mark == "\xFE\xFF" || (text[0] == '\0') != (text[1] == '\0');
+  const auto is_letter = [](char byte) { return byte >= '\t' && byte < '\x7F'; };
+  return mark == "\xFF\xFE" || mark == "\xFE\xFF" || (text[0] == '\0' && is_letter(text[1])) ||
+         (is_letter(text[0]) && text[1] == '\0');
 }
 
 std::string plain_text(const std::filesystem::path& file, const std::string& wanted) {

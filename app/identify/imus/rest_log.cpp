@@ -22,8 +22,6 @@ namespace {
 
 constexpr std::array<const char*, kAxisCount> kNames = {"boom", "arm", "bucket"};
 
-/// Kernel stamps of frames that came together may be this much out of order.
-constexpr double kBack_s = 0.002;
 /// So often, of its frames, an IMU may be in doubt, or early.
 constexpr double kMostDoubts = 0.05;
 /// A rest has no hole as long as this.
@@ -144,10 +142,7 @@ void Reader::take(const LoggedFrame& frame) {
     last_s_ = frame.time_s;
     any_ = true;
   }
-  if (frame.time_s < last_s_ - kBack_s) {
-    fail(frame.line, fmt::format("its clock goes back by {:.3f} s", last_s_ - frame.time_s));
-  }
-  last_s_ = std::max(last_s_, frame.time_s);
+  last_s_ = frame.time_s;
   if (frame.extended && same_message(frame.id, dbc::excavator::MachineIdentity::kId)) {
     return identify(frame);
   }

@@ -39,7 +39,7 @@ struct RestLog {
 
 /// Reads a log, plain or gzip. Throws std::runtime_error that names file, line and reason: not
 /// candump, cut off, an IMU of `imus` that is not heard or is silent too long, one that says an
-/// error, a clock that goes back, two machines in one log, no rest.
+/// error, two machines in one log, no rest.
 [[nodiscard]] RestLog read_rests(const std::filesystem::path& file, const ImuProfile& imus);
 
 }  // namespace graben::identify
