@@ -228,6 +228,10 @@ class Alignment {
                   "its stations are counted anew on the way; allowed with --stations: an "
                   "alignment without station equations");
     }
+    const pugi::xml_attribute start = alignment.attribute("staStart");
+    if (start && !said(alignment, "staStart")) {
+      xml_.refuse(alignment, fmt::format("staStart=\"{}\"; allowed: a number", start.value()));
+    }
     const double start_m = said(alignment, "staStart").value_or(0.0);
     const double from_m = source_.stations_m[0] - start_m;
     const double to_m = source_.stations_m[1] - start_m;

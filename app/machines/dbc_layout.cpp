@@ -148,7 +148,10 @@ class DbcReader {
         open = !open;
       }
     }
-    return !open;
+    // A quote within a text is sometimes not marked as one.
+    const std::string_view end = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+    const bool is_end = end.size() > 1 && end.substr(end.size() - 2) == "\";";
+    return !open || is_end;
   }
 
   void take_layout(const std::string& line, bool is_message, bool is_signal) {

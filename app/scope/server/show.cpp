@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "app/identify/machine/candump_reader.hpp"
 #include "app/machines/missing_file.hpp"
 
 namespace graben::scope {
@@ -59,6 +60,17 @@ int unpacked(const std::filesystem::path& name, int file) {
   return fcntl(fileno(out.get()), F_DUPFD_CLOEXEC, 0);
 }
 
+/// A log of another tool as candump's lines, which the page reads, in a file without a name.
+int turned(const std::filesystem::path& name) {
+  const std::string text = identify::candump_text(name);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::tmpfile(), std::fclose);
+  if (!out || std::fwrite(text.data(), 1, text.size(), out.get()) != text.size() ||
+      std::fflush(out.get()) != 0) {
+    fail(name, std::strerror(errno));
+  }
+  return fcntl(fileno(out.get()), F_DUPFD_CLOEXEC, 0);
+}
+
 bool is_packed(int file) {
   std::array<unsigned char, 2> begin{};
   return pread(file, begin.data(), begin.size(), 0) == 2 && begin[0] == 0x1f && begin[1] == 0x8b;
@@ -87,10 +99,10 @@ LogFile open_log(const std::filesystem::path& name) {
     close(file);
     fail(name, problem);
   }
-  if (!is_packed(file)) {
+  if (!is_packed(file) && !identify::is_other_log(name)) {
     return {file, static_cast<std::uint64_t>(status.st_size)};
   }
-  const int whole = unpacked(name, file);
+  const int whole = identify::is_other_log(name) ? turned(name) : unpacked(name, file);
   if (whole < 0 || fstat(whole, &status) != 0) {
     fail(name, std::strerror(errno));
   }

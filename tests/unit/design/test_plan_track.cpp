@@ -110,6 +110,9 @@ TEST(stations_that_are_counted_anew_are_refused) {
   assert_true(
       has(refusal(text, {"way", {101.0, 109.0}}), "<StaEquation>: its stations are counted anew"));
   assert_near(read(text).length_m(), 10.0, 1e-9);
+  std::string words = file_of(kLine);
+  words.replace(words.find("=\"100\""), 6, "=\"1+00\"");
+  assert_true(has(refusal(words, {"way", {101.0, 109.0}}), "staStart=\"1+00\"; allowed: a number"));
 }
 
 /// A file whose axes or turns are mirrored has arcs that go round the other way than they say.

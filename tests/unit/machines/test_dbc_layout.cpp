@@ -116,6 +116,7 @@ TEST(of_a_dbc_only_what_is_named_is_judged) {
         named + kOther + kEngineSpeed + kEngineSpeed,
         named + kOther + " SG_ Pad : 0|8@1+ (0,0) [0|0] \"\" Vector__XXX\n",
         named + kOther + kOther, "BO_ 5000 Odd: 8 X\n" + named, named + "BO_ what: ever\n",
+        "CM_ \"a 5\" pipe\";\n" + named,
         named + "CM_ BO_ 2364540158 \"first\nBO_ 2364540158 EEC1: 8 X\n SG_ EngSpeed : 0|8@1+ "
                 "(1,0) [0|1] "
                 "\\\"\\\" X\nlast\";\nBA_ \"SPN\" 190;\n",
