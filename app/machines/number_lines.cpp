@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <string_view>
 
@@ -35,7 +36,11 @@ class NumberLines {
 
  private:
   static bool is_header(const std::vector<std::string_view>& cells) {
-    return std::none_of(cells.begin(), cells.end(),
+    const auto is_name = [](std::string_view cell) {
+      return !cell.empty() && std::isalpha(static_cast<unsigned char>(cell.front())) != 0;
+    };
+    return std::any_of(cells.begin(), cells.end(), is_name) &&
+           std::none_of(cells.begin(), cells.end(),
                         [](std::string_view cell) { return number_in(cell).has_value(); });
   }
 

@@ -117,13 +117,8 @@ LineKind whole(bool is_whole, LineKind kind) { return is_whole ? kind : LineKind
 /// "81:00:00000000#AABB", after an id with '#'.
 LineKind take_xl(Rest& rest) {
   for (const std::size_t digits : {std::size_t{2}, std::size_t{2}, std::size_t{8}}) {
-    const bool separates = digits != 2 || rest.text().substr(digits, 1) == ":";
-    if (rest.text().size() <= digits || !separates) {
-      return LineKind::kBroken;
-    }
-    std::size_t left = digits;
-    rest.take_while([&](char letter) { return is_hex(letter) && left-- > 0; });
-    if (!rest.take(digits == 2 ? ':' : '#')) {
+    const bool is_number = rest.take_while(is_hex).size() == digits;
+    if (!is_number || !rest.take(digits == 2 ? ':' : '#')) {
       return LineKind::kBroken;
     }
   }

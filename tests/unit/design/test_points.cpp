@@ -85,7 +85,8 @@ const Eigen::Vector3d kFar(1040.0, 2020.0, 50.8);
 /// What spreadsheets and instruments put round numbers.
 TEST(marks_pluses_ends_and_blank_rows_are_no_numbers) {
   for (const char* const text :
-       {"\xEF\xBB\xBF1000,2000,50\n1040,2000,50.8\n1040,2020,50.8\n",
+       {"\xEF\xBB\xBF"
+        "1000,2000,50\n1040,2000,50.8\n1040,2020,50.8\n",
         "+1000.0 +2000.0 +50\r\n+1040.0 2000 50.8\r\n1040 2020 50.8\r\n\r\n",
         "\"1000\",\"2000\",\"50\"\n1040,2000,50.8,,\n1040,2020,50.8\n,,\n,,,\n",
         "1000; 2000; 50\n1040;2000;50.8\n1040;2020;50.8",
