@@ -54,6 +54,11 @@ void compare(const CompareCommand& options) {
     fmt::print("note: {}\n", note);
   }
   for (const runs::RunLog* run : {&first, &second}) {
+    for (const std::string& note : run->read.notes()) {
+      fmt::print("note: {}\n", note);
+    }
+  }
+  for (const runs::RunLog* run : {&first, &second}) {
     if (run->first_fault_s) {
       fmt::print("{}: fault {}, {}\n", run->name, static_cast<int>(run->first_fault),
                  runs::fault_words(run->first_fault));

@@ -15,11 +15,22 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
   command.add_option(
       "--design", source.file,
       "Instead of the profile's design, a file or a shipped one (trench.xml, banked.xml, "
-      "curved.xml): "
-      "a LandXML surface (.xml), points x y z (.xyz, .csv, .pts), "
-      "or any other text with x along the track and height over the plane, a line a corner, and "
-      "where the blade tilts the slope across and the track's curvature");
-  command.add_option("--surface", source.surface, "Of a LandXML file with several, by its name");
+      "curved.xml): a LandXML surface, points x y z (.xyz, .csv, .pts, or as "
+      "--columns say), or a text (.txt) with x along the track and height over the plane, a line a "
+      "corner, and where the blade tilts the slope across and the track's curvature");
+  command.add_option(
+      "--surface", source.surface,
+      "Of a LandXML file with several: its name, its number as '#2', or its state as "
+      "state=proposed");
+  command.add_option(
+      "--columns", source.columns,
+      "Of points, a letter each: P name, N or Y northing, E or X easting, Z height, D "
+      "description, as PNEZD; as the file's first line names them, else XYZ, unless "
+      "told");
+  command
+      .add_option("--units", source.units,
+                  "Of points: m, ft, us-ft (US survey feet); m unless told")
+      ->check(CLI::IsMember({"m", "ft", "us-ft"}));
   command
       .add_option(
           "--track", source.track_m,
@@ -33,7 +44,9 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
                   "straight unless told")
       ->check(number_between(2.0, 1000.0));
   command.add_option("--alignment", source.alignment,
-                     "The track instead: an alignment of the LandXML file, by its name");
+                     "The track instead: an alignment of the LandXML file, chosen as --surface");
+  command.add_option("--alignment-file", source.alignment_file,
+                     "The LandXML file with that alignment, where it is not the design's");
   command
       .add_option("--stations", source.stations_m,
                   "From and to on that alignment, m; all of it unless told")
@@ -52,7 +65,8 @@ Designed designed(const machines::SimulatedDozer& machine, const design::DesignS
   if (source.file.empty()) {
     if (!source.surface.empty() || source.has_track()) {
       throw std::runtime_error(
-          "--surface, --track, --radius, --alignment, --stations and --datum are of a --design");
+          "--surface, --columns, --units, --track, --radius, --alignment, --alignment-file, "
+          "--stations and --datum are of a --design");
     }
     return {machine, {}};
   }
@@ -60,7 +74,7 @@ Designed designed(const machines::SimulatedDozer& machine, const design::DesignS
   if (!std::filesystem::exists(source.file, ignored) ||
       std::filesystem::is_directory(source.file, ignored)) {
     throw std::runtime_error(machines::unread_text(
-        source.file, "a design: LandXML (.xml), points (.xyz, .csv, .pts), or a line a corner"));
+        source.file, "a design: LandXML, points (.xyz, .csv, .pts), or a line a corner (.txt)"));
   }
   const design::BladeAcross blade{machine.plant.blade_shape.width_m,
                                   machine.profile.grade.tolerance_m, machine.profile.tilt.present};

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
@@ -114,9 +115,8 @@ void export_log(const ExportCommand& options) {
   if (!counts.foreign.empty()) {
     fmt::print("{}", foreign_text(counts.foreign, bus));
   }
-  if (counts.late > 0) {
-    fmt::print("{} frames had a stamp before that of the frame before them, and have its stamp\n",
-               counts.late);
+  for (const std::string& note : counts.notes) {
+    fmt::print("note: {}\n", note);
   }
 }
 

@@ -49,6 +49,9 @@ std::vector<identify::MachineLog> read_logs(const IdentifyLogCommand& options,
   for (const std::string& file : options.logs) {
     logs.push_back(identify::read_machine_log(file, profile.pump_count));
     const identify::MachineLog& log = logs.back();
+    for (const std::string& note : log.notes) {
+      fmt::print("note: {}\n", note);
+    }
     for (std::size_t n = 0; n + 1 < logs.size(); ++n) {
       if (logs[n].sha256 == log.sha256) {
         throw std::runtime_error(fmt::format("{}: is the same log as {}", file, options.logs[n]));

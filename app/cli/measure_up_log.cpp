@@ -195,6 +195,9 @@ void measure_up(const MeasureUpCommand& options) {
     assert_writable(options.out);
   }
   const identify::RestLog log = identify::read_rests(options.log, machine.profile.imu);
+  for (const std::string& note : log.notes) {
+    fmt::print("note: {}\n", note);
+  }
   if (!options.any_machine && log.profile_hash != 0 && log.profile_hash != machine.hash) {
     throw std::runtime_error(fmt::format(
         "{}: is of a machine with profile {:08x}, and this is {:08x}; with --any-machine that may "

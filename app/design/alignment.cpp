@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 #include "app/design/landxml_file.hpp"
 #include "app/design/plan_track.hpp"
@@ -14,6 +17,9 @@ namespace {
 /// What files round their numbers to.
 constexpr double kApart_m = 0.02;
 constexpr double kBend_rad = 5e-3;
+/// Of a length that is said beside points, and its share.
+constexpr double kSaid_m = 0.05;
+constexpr double kSaidShare = 2e-3;
 constexpr double kShortest_m = 1e-3;
 
 double within_half_turn(double angle_rad) { return std::remainder(angle_rad, kTwoPi); }
@@ -30,36 +36,121 @@ class Alignment {
     if (!geometry) {
       xml_.refuse(alignment, "has no <CoordGeom>");
     }
-    for (const pugi::xml_node& node : geometry.children()) {
-      if (node.type() == pugi::node_element) {
-        take(node);
+    std::vector<Element> elements = elements_of(geometry);
+    if (elements.empty()) {
+      xml_.refuse(geometry, "has no element; allowed: <Line>, <Curve>");
+    }
+    const Range range = range_of(alignment, elements);
+    for (const Element& each : elements) {
+      const bool is_before_end = each.begin_m < range.to_m - kShortest_m;
+      const bool is_used =
+          !each.length_m || each.begin_m + *each.length_m > range.from_m + kShortest_m;
+      if (is_before_end && is_used) {
+        begin_m_ = track_.piece.empty() ? each.begin_m : begin_m_;
+        take(each.node);
       }
     }
     xml_.throw_errors();
     if (track_.piece.empty()) {
-      xml_.refuse(geometry, "has no element; allowed: <Line>, <Curve>");
+      xml_.refuse(geometry, "has no length; allowed: <Line>, <Curve>");
     }
-    return cut(alignment);
+    return cut(range);
   }
 
  private:
-  void take(const pugi::xml_node& node) {
+  /// As it lies on the alignment; without a length nothing after it has a station.
+  struct Element {
+    pugi::xml_node node;
+    double begin_m = 0.0;
+    std::optional<double> length_m;
+  };
+  struct Range {
+    double from_m = 0.0;
+    double to_m = 0.0;
+  };
+
+  [[nodiscard]] std::vector<Element> elements_of(const pugi::xml_node& geometry) {
+    std::vector<Element> elements;
+    double begin_m = 0.0;
+    for (const pugi::xml_node& node : geometry.children()) {
+      const std::string_view name = node.name();
+      if (node.type() != pugi::node_element || name == "Feature" || name == "Property") {
+        continue;
+      }
+      elements.push_back({node, begin_m, length_of(node)});
+      if (!elements.back().length_m) {
+        break;
+      }
+      begin_m += *elements.back().length_m;
+    }
+    return elements;
+  }
+
+  /// Of a line or an arc by its points, of any other element as the file says. None: not said, or
+  /// two ways.
+  [[nodiscard]] std::optional<double> length_of(const pugi::xml_node& node) {
+    const auto said_m = said(node, "length");
+    if (!is_known(node)) {
+      return said_m;
+    }
+    const auto piece = piece_of(node);
+    const bool is_right = xml_.forget_notes() == 0;
+    return piece && is_right ? std::optional(piece->length_m) : std::nullopt;
+  }
+
+  static bool is_known(const pugi::xml_node& node) {
     const std::string_view name = node.name();
-    if (name == "Feature" || name == "Property") {
-      return;
+    return name == "Line" || name == "Curve";
+  }
+
+  [[nodiscard]] std::optional<double> said(const pugi::xml_node& node, const char* name) const {
+    const auto value = number_of<double>(node.attribute(name).value());
+    return value ? std::optional(*value * xml_.metres()) : std::nullopt;
+  }
+
+  [[noreturn]] void refuse_kind(const pugi::xml_node& node) const {
+    xml_.refuse(node, "allowed in an alignment: <Line>, <Curve>, where it is used");
+  }
+
+  void take(const pugi::xml_node& node) {
+    if (!is_known(node)) {
+      refuse_kind(node);
     }
-    if (name != "Line" && name != "Curve") {
-      xml_.refuse(node, "allowed in an alignment: <Line>, <Curve>");
-    }
-    const auto from_m = point(node, "Start");
-    const auto to_m = point(node, "End");
-    if (!from_m || !to_m) {
-      return;
-    }
-    const auto piece = name == "Line" ? line(*from_m, *to_m) : arc(node, *from_m, *to_m);
+    const auto piece = piece_of(node);
     if (piece && piece->length_m > kShortest_m) {
       demand_going_on(node, *piece);
       track_.piece.push_back(*piece);
+    }
+  }
+
+  std::optional<TrackPiece> piece_of(const pugi::xml_node& node) {
+    const auto from_m = point(node, "Start");
+    const auto to_m = point(node, "End");
+    if (!from_m || !to_m) {
+      return std::nullopt;
+    }
+    const bool is_line = std::string_view(node.name()) == "Line";
+    const auto piece = is_line ? line(*from_m, *to_m) : arc(node, *from_m, *to_m);
+    if (piece) {
+      demand_as_said(node, *piece);
+    }
+    return piece;
+  }
+
+  /// Its points, and which way it turns, against the numbers beside them: files that mirror their
+  /// axes or count the turn the other way round are told by that.
+  void demand_as_said(const pugi::xml_node& node, const TrackPiece& piece) {
+    const auto compare = [&](const char* name, double by_points_m) {
+      const auto said_m = said(node, name);
+      if (said_m && std::abs(*said_m - by_points_m) > kSaid_m + kSaidShare * by_points_m) {
+        xml_.note(node, fmt::format("{}=\"{}\", by its points{} {:.3f} m; allowed: the same", name,
+                                    node.attribute(name).value(),
+                                    node.attribute("rot") ? " and rot" : "", by_points_m));
+      }
+    };
+    compare("length", piece.length_m);
+    if (piece.curvature_pm != 0.0) {
+      compare("radius", 1.0 / std::abs(piece.curvature_pm));
     }
   }
 
@@ -123,30 +214,44 @@ class Alignment {
     } else if (std::abs(bend_rad) > kBend_rad) {
       xml_.note(node, fmt::format("bends by {:.4f} rad from the one before at station {:.3f} m; "
                                   "allowed: {} .. {} rad",
-                                  bend_rad, track_.length_m(), -kBend_rad, kBend_rad));
+                                  bend_rad, begin_m_ + track_.length_m(), -kBend_rad, kBend_rad));
     }
   }
 
-  /// From station to station.
-  PlanTrack cut(const pugi::xml_node& alignment) const {
+  [[nodiscard]] Range range_of(const pugi::xml_node& alignment,
+                               const std::vector<Element>& elements) const {
     if (source_.stations_m.empty()) {
-      return track_;
+      return {0.0, std::numeric_limits<double>::infinity()};
     }
-    const double start_m =
-        number_of<double>(alignment.attribute("staStart").value()).value_or(0.0) * xml_.metres();
+    if (const pugi::xml_node equation = alignment.child("StaEquation")) {
+      xml_.refuse(equation,
+                  "its stations are counted anew on the way; allowed with --stations: an "
+                  "alignment without station equations");
+    }
+    const pugi::xml_attribute start = alignment.attribute("staStart");
+    if (start && !said(alignment, "staStart")) {
+      xml_.refuse(alignment, fmt::format("staStart=\"{}\"; allowed: a number", start.value()));
+    }
+    const double start_m = said(alignment, "staStart").value_or(0.0);
     const double from_m = source_.stations_m[0] - start_m;
     const double to_m = source_.stations_m[1] - start_m;
-    const double length_m = track_.length_m();
+    const Element& last = elements.back();
+    const double length_m =
+        last.begin_m + last.length_m.value_or(std::numeric_limits<double>::infinity());
     if (!(from_m >= -kShortest_m && to_m > from_m && to_m <= length_m + kShortest_m)) {
       xml_.refuse(alignment, fmt::format("stations {} .. {} m; allowed: rising, {:.3f} .. {:.3f} m",
                                          source_.stations_m[0], source_.stations_m[1], start_m,
                                          start_m + length_m));
     }
+    return {from_m, to_m};
+  }
+
+  [[nodiscard]] PlanTrack cut(const Range& range) const {
     PlanTrack part;
-    double begin_m = 0.0;
+    double begin_m = begin_m_;
     for (const TrackPiece& piece : track_.piece) {
-      const double first_m = std::max(0.0, from_m - begin_m);
-      const double last_m = std::min(piece.length_m, to_m - begin_m);
+      const double first_m = std::max(0.0, range.from_m - begin_m);
+      const double last_m = std::min(piece.length_m, range.to_m - begin_m);
       begin_m += piece.length_m;
       if (last_m - first_m > kShortest_m) {
         part.piece.push_back({piece.at_m(first_m), piece.direction_at_rad(first_m),
@@ -159,6 +264,7 @@ class Alignment {
   LandXmlFile xml_;
   AlignmentSource source_;
   PlanTrack track_;
+  double begin_m_ = 0.0;  ///< Of its first piece on the alignment.
 };
 
 }  // namespace

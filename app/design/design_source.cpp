@@ -3,37 +3,64 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <stdexcept>
+#include <string_view>
 
 #include "app/design/curved_section.hpp"
 #include "app/machines/design_file.hpp"
+#include "app/machines/plain_text.hpp"
 
 namespace graben::design {
 namespace {
 
-bool is_points(const std::string& ending) {
-  return ending == ".xyz" || ending == ".csv" || ending == ".pts";
+constexpr const char* kOfSurface =
+    "--surface, --columns, --units, --track, --radius, --alignment, --alignment-file, --stations "
+    "and "
+    "--datum are for a surface, LandXML or points";
+
+std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return ending;
 }
 
-Surface surface_of(const DesignSource& source, const std::string& ending) {
-  if (ending == ".xml") {
+/// By its first character, in any encoding that XML may have.
+bool is_xml(const std::filesystem::path& file) {
+  const std::string text = machines::file_text(file, "a design");
+  const std::size_t at =
+      text.find_first_not_of(std::string_view("\xEF\xBB\xBF\xFF\xFE\0 \t\r\n", 10));
+  return at != std::string::npos && text[at] == '<';
+}
+
+Surface surface_of(const DesignSource& source, DesignKind kind) {
+  if (kind == DesignKind::kLandXml) {
+    if (!source.columns.empty() || !source.units.empty()) {
+      throw std::runtime_error("--columns and --units are of points; a LandXML file says its own");
+    }
     return read_landxml(source.file, source.surface);
   }
   if (!source.surface.empty()) {
-    throw std::runtime_error("--surface chooses one of a LandXML file's, which ends in .xml");
+    throw std::runtime_error("--surface chooses one of a LandXML file's");
   }
-  return read_points(source.file);
+  return read_points(source.file, {source.columns, metres_of_unit(source.units)});
 }
 
 /// None: it is straight, by its corners or along the middle.
-std::optional<PlanTrack> curved_track(const DesignSource& source, const std::string& ending) {
-  if (source.alignment) {
-    if (ending != ".xml" || !source.track_m.empty() || source.radius_m > 0.0) {
+std::optional<PlanTrack> curved_track(const DesignSource& source, DesignKind kind) {
+  const bool is_other = !source.alignment_file.empty();
+  if (source.alignment || is_other) {
+    if ((kind != DesignKind::kLandXml && !is_other) || !source.track_m.empty() ||
+        source.radius_m > 0.0) {
       throw std::runtime_error(
-          "--alignment is the track of a LandXML file (.xml); it does not go with --track or "
-          "--radius");
+          "--alignment is the track of a LandXML file, the design's or --alignment-file; it does "
+          "not "
+          "go with --track or --radius");
     }
-    return read_alignment(source.file, {*source.alignment, source.stations_m});
+    return read_alignment(is_other ? source.alignment_file : source.file,
+                          {source.alignment.value_or(""), source.stations_m});
   }
   if (!source.stations_m.empty()) {
     throw std::runtime_error("--stations are of an --alignment");
@@ -64,19 +91,38 @@ machines::DesignLine along(const Surface& surface, const DesignSource& source,
 
 }  // namespace
 
+DesignKind kind_of(const DesignSource& source) {
+  const std::string ending = ending_of(source.file);
+  if (is_xml(source.file)) {
+    return DesignKind::kLandXml;
+  }
+  const bool is_points = ending == ".xyz" || ending == ".csv" || ending == ".pts";
+  if (is_points || !source.columns.empty()) {
+    return DesignKind::kPoints;
+  }
+  if (ending != ".txt") {
+    throw std::runtime_error(fmt::format(
+        "{}: is no LandXML, and its ending '{}' does not say what its numbers are; allowed: .xyz, "
+        ".csv and .pts for points or --columns that say so, as XYZ or PNEZD; .txt for a line a "
+        "corner, x along the track and height over the plane",
+        source.file.string(), ending));
+  }
+  return DesignKind::kLine;
+}
+
 machines::DesignLine line_of(const DesignSource& source, const BladeAcross& blade) {
-  const std::string ending = source.file.extension().string();
-  if (ending != ".xml" && !is_points(ending)) {
+  const DesignKind kind = kind_of(source);
+  if (kind == DesignKind::kLine) {
     if (!source.surface.empty() || source.has_track()) {
-      throw std::runtime_error(
-          "--surface, --track, --radius, --alignment, --stations and --datum are for a surface, "
-          "LandXML (.xml) or points (.xyz, .csv, "
-          ".pts): any other file is a line a corner, x along the track and height over the plane");
+      throw std::runtime_error(fmt::format(
+          "{}: this one is a line a corner, x along the track and height over the plane, unless "
+          "--columns say what a point's are",
+          kOfSurface));
     }
     return machines::read_design(source.file);
   }
-  const Surface surface = surface_of(source, ending);
-  const std::optional<PlanTrack> curved = curved_track(source, ending);
+  const Surface surface = surface_of(source, kind);
+  const std::optional<PlanTrack> curved = curved_track(source, kind);
   try {
     return along(surface, source, curved, blade);
   } catch (const std::runtime_error& error) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <unordered_map>
+#include <vector>
 
 #include "app/design/landxml_file.hpp"
 #include "app/design/surface.hpp"
@@ -19,6 +20,7 @@ class LandXmlSurface {
         definition_of(xml_.chosen("Surfaces", "Surface", name, "--surface"));
     read_points(definition);
     read_faces(definition);
+    take_points();
     xml_.throw_errors();
     if (surface_.face.empty()) {
       xml_.refuse(definition, "has no face; allowed: 1 and more");
@@ -40,23 +42,56 @@ class LandXmlSurface {
   }
 
   void read_points(const pugi::xml_node& definition) {
-    const pugi::xml_node points = definition.child("Pnts");
-    if (!points) {
+    if (!definition.child("Pnts")) {
       xml_.refuse(definition, "has no <Pnts>");
     }
-    for (const pugi::xml_node& node : points.children("P")) {
-      if (surface_.point_m.size() >= kMostPoints) {
-        xml_.refuse(node, fmt::format("allowed: at most {} points", kMostPoints));
+    for (const pugi::xml_node& points : definition.children("Pnts")) {
+      for (const pugi::xml_node& node : points.children("P")) {
+        if (point_.size() >= kMostPoints) {
+          xml_.refuse(node, fmt::format("allowed: at most {} points", kMostPoints));
+        }
+        // Of no use without an id that a face can name.
+        if (const auto id = number_of<std::uint64_t>(node.attribute("id").value())) {
+          const auto at = static_cast<std::uint32_t>(point_.size());
+          const bool is_new = index_.emplace(*id, at).second;
+          point_.push_back({node, is_new ? at : index_[*id]});
+        }
       }
-      const auto id = number_of<std::uint64_t>(node.attribute("id").value());
-      if (!id) {
-        xml_.note(node, "allowed: a whole number as its id");
-        continue;
+    }
+  }
+
+  /// What a face uses is judged, and nothing else: files have points outside every face, for frames
+  /// and breaklines, that are none.
+  void use(std::uint32_t at) {
+    if (is_used_.empty()) {
+      is_used_.resize(point_.size());
+    }
+    is_used_[at] = true;
+  }
+
+  /// The points that faces use, in the file's order.
+  void take_points() {
+    std::vector<std::uint32_t> place(point_.size());
+    for (std::uint32_t at = 0; at < point_.size(); ++at) {
+      const Point& point = point_[at];
+      if (point.first == at && !is_used_.empty() && is_used_[at]) {
+        place[at] = static_cast<std::uint32_t>(surface_.point_m.size());
+        surface_.point_m.push_back(point_of(point.node));
+      } else if (point.first != at && !is_used_.empty() && is_used_[point.first]) {
+        demand_same(point.node, point_of(point.node), surface_.point_m[place[point.first]]);
       }
-      if (!index_.emplace(*id, static_cast<std::uint32_t>(surface_.point_m.size())).second) {
-        xml_.note(node, "its id is there for the second time");
+    }
+    for (auto& face : surface_.face) {
+      for (std::uint32_t& corner : face) {
+        corner = place[corner];
       }
-      surface_.point_m.push_back(point_of(node));
+    }
+  }
+
+  void demand_same(const pugi::xml_node& node, const Eigen::Vector3d& at_m,
+                   const Eigen::Vector3d& first_m) {
+    if (at_m != first_m) {
+      xml_.note(node, "its id is there for the second time, elsewhere");
     }
   }
 
@@ -96,11 +131,21 @@ class LandXmlSurface {
       }
       face[i] = found->second;
     }
+    for (const std::uint32_t corner : face) {
+      use(corner);
+    }
     surface_.face.push_back(face);
   }
 
+  struct Point {
+    pugi::xml_node node;
+    std::uint32_t first = 0;  ///< Of this id, its own place unless it was there before.
+  };
+
   LandXmlFile xml_;
   std::unordered_map<std::uint64_t, std::uint32_t> index_;
+  std::vector<Point> point_;
+  std::vector<bool> is_used_;  ///< By a face; none: there is none.
   Surface surface_;
 };
 

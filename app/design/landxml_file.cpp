@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "app/design/surface.hpp"
-#include "app/machines/number_lines.hpp"
+#include "app/machines/plain_text.hpp"
 #include "app/machines/profile_file.hpp"
 
 namespace graben::design {
@@ -30,6 +30,64 @@ double metres_of(const std::string& unit) {
   const auto found = known.find(unit);
   return found != known.end() ? found->second : 0.0;
 }
+
+/// LandXML's elements by their plain names, whatever prefix a file has for its namespace.
+class Prefixes : public pugi::xml_tree_walker {
+ public:
+  explicit Prefixes(const pugi::xml_node& root) {
+    constexpr std::string_view kDeclares = "xmlns:";
+    for (const pugi::xml_attribute& attribute : root.attributes()) {
+      const std::string_view name = attribute.name();
+      if (name.substr(0, kDeclares.size()) == kDeclares &&
+          std::string_view(attribute.value()).find("landxml.org") != std::string_view::npos) {
+        known_.push_back(std::string(name.substr(kDeclares.size())) + ":");
+      }
+    }
+  }
+
+  [[nodiscard]] bool any() const { return !known_.empty(); }
+
+  bool for_each(pugi::xml_node& node) override {
+    const std::string name = node.name();
+    for (const std::string& prefix : known_) {
+      if (name.compare(0, prefix.size(), prefix) == 0) {
+        node.set_name(name.c_str() + prefix.size());
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::vector<std::string> known_;
+};
+
+/// Of coordinates that count to the south or west, by EPSG's numbers: Cape and Hartebeesthoek94 Lo
+/// grids, Krovak.
+bool counts_backwards(int epsg) {
+  const bool is_lo = (epsg >= 2046 && epsg <= 2055) || (epsg >= 22275 && epsg <= 22293);
+  return is_lo || epsg == 2065 || epsg == 5513;
+}
+
+bool has_word(std::string text, const char* word) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  return text.find(word) != std::string::npos;
+}
+
+/// One of a file's that may be chosen.
+struct Choice {
+  pugi::xml_node node;
+  std::string name;
+  std::string state;
+
+  [[nodiscard]] std::string words(std::size_t number) const {
+    return fmt::format("#{} '{}'{}", number, name, state.empty() ? "" : " (" + state + ")");
+  }
+  /// Its name comes first: no name is taken for a number or a state.
+  [[nodiscard]] bool is(const std::string& told, std::size_t number) const {
+    return told == fmt::format("#{}", number) || (!state.empty() && told == "state=" + state);
+  }
+};
 
 }  // namespace
 
@@ -54,10 +112,28 @@ LandXmlFile::LandXmlFile(const std::filesystem::path& file)
     throw ProfileError(file.string(), {fmt::format("line {}: can't be read as XML: {}",
                                                    line_at(parsed.offset), parsed.description())});
   }
+  Prefixes prefixes(root());
+  if (prefixes.any()) {
+    document_.traverse(prefixes);
+  }
   if (std::string_view(root().name()) != "LandXML") {
     refuse(root(), "allowed: LandXML as the outermost element");
   }
   read_unit();
+  refuse_mirrored();
+}
+
+void LandXmlFile::refuse_mirrored() const {
+  for (const pugi::xml_node& system : root().children("CoordinateSystem")) {
+    const std::string wkt = system.attribute("ogcWktCode").value();
+    const int epsg = system.attribute("epsgCode").as_int();
+    if (counts_backwards(epsg) ||
+        (has_word(wkt, "AXIS[") && (has_word(wkt, ",SOUTH]") || has_word(wkt, ",WEST]")))) {
+      refuse(system,
+             "its axes count to the south or west, which mirrors left and right; allowed: "
+             "north and east");
+    }
+  }
 }
 
 std::size_t LandXmlFile::line_at(std::ptrdiff_t offset) const {
@@ -111,30 +187,39 @@ void LandXmlFile::read_unit() {
 
 pugi::xml_node LandXmlFile::chosen(const char* group, const char* element, const std::string& name,
                                    const char* option) const {
-  const pugi::xml_node all = root().child(group);
-  std::string there;
-  pugi::xml_node found;
-  int count = 0;
-  for (const pugi::xml_node& one : all.children(element)) {
-    const std::string own = one.attribute("name").value();
-    there += (there.empty() ? "" : ", ") + ("'" + own + "'");
-    if (name.empty() || own == name) {
-      found = one;
-      ++count;
+  std::vector<Choice> choices;
+  for (const pugi::xml_node& all : root().children(group)) {
+    for (const pugi::xml_node& one : all.children(element)) {
+      choices.push_back({one, one.attribute("name").value(), one.attribute("state").value()});
     }
   }
-  if (count == 1) {
-    return found;
+  const pugi::xml_node first = root().child(group);
+  const pugi::xml_node at = first ? first : root();
+  if (choices.empty()) {
+    refuse(at, fmt::format("has no <{}>; allowed: <{}> with 1 and more", element, group));
   }
-  if (there.empty()) {
-    refuse(all ? all : root(),
-           fmt::format("has no <{}>; allowed: <{}> with 1 and more", element, group));
+  std::string there;
+  std::vector<pugi::xml_node> by_name;
+  std::vector<pugi::xml_node> otherwise;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    there += (there.empty() ? "" : ", ") + choices[i].words(i + 1);
+    if (name.empty() || choices[i].name == name) {
+      by_name.push_back(choices[i].node);
+    } else if (choices[i].is(name, i + 1)) {
+      otherwise.push_back(choices[i].node);
+    }
+  }
+  const std::vector<pugi::xml_node>& found = by_name.empty() ? otherwise : by_name;
+  if (found.size() == 1) {
+    return found.front();
   }
   std::string kind = element;
   kind.front() = static_cast<char>(std::tolower(kind.front()));
-  refuse(all, name.empty() ? fmt::format("allowed: one of {}, by {}", there, option)
-                           : fmt::format("{} '{}' is there {} times; allowed: one of {}", kind,
-                                         name, count, there));
+  const std::string how = fmt::format(
+      "by {} with a name, '#' and a number, or 'state=' and a state, that one alone has", option);
+  refuse(at, name.empty() ? fmt::format("allowed: one of {}, {}", there, how)
+                          : fmt::format("{} '{}' is there {} times; allowed: one of {}, {}", kind,
+                                        name, found.size(), there, how));
 }
 
 std::optional<Eigen::Vector3d> LandXmlFile::north_east_up_m(const pugi::xml_node& node,

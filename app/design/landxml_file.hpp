@@ -32,7 +32,8 @@ class LandXmlFile {
 
   [[nodiscard]] pugi::xml_node root() const { return document_.document_element(); }
   [[nodiscard]] double metres() const { return metres_; }
-  /// What it has of these, chosen by name, or the only one. Throws ProfileError.
+  /// What it has of these, in all groups of that name: by its name, by its number among them ("#2")
+  /// or by its state ("state=proposed"); unless told, the only one. Throws ProfileError.
   [[nodiscard]] pugi::xml_node chosen(const char* group, const char* element,
                                       const std::string& name, const char* option) const;
   /// Coordinates north, east and as many as `count` in metres; what is wrong is noted, and none
@@ -46,10 +47,17 @@ class LandXmlFile {
   void note(const pugi::xml_node& node, const std::string& what);
   [[noreturn]] void refuse(const pugi::xml_node& node, const std::string& what) const;
   void throw_errors() const;
+  /// How many there were: of what was only looked at.
+  std::size_t forget_notes() {
+    const std::size_t count = errors_.size();
+    errors_.clear();
+    return count;
+  }
 
  private:
   [[nodiscard]] std::size_t line_at(std::ptrdiff_t offset) const;
   void read_unit();
+  void refuse_mirrored() const;
 
   std::filesystem::path file_;
   std::string text_;

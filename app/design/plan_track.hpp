@@ -43,13 +43,14 @@ struct PlanStation {
 
 /// Which of a file's alignments, and from where to where on it.
 struct AlignmentSource {
-  std::string name;                ///< The only one it has unless told.
+  std::string name;                ///< As LandXmlFile::chosen; the only one it has unless told.
   std::vector<double> stations_m;  ///< From and to, as the file counts them; all of it unless told.
 };
 
-/// An alignment of a LandXML file: <Line> and <Curve>. Throws as read_landxml: for any other
-/// element of its geometry, for one that does not go on where and as the one before ended, and for
-/// stations that it does not have.
+/// An alignment of a LandXML file: <Line> and <Curve>. It is cut to the stations, then judged.
+/// Throws as read_landxml: for any other element of its geometry there, for one that does not go on
+/// where and as the one before ended or whose length or radius is another than its points make, for
+/// stations that it does not have or that a station equation counts anew.
 [[nodiscard]] PlanTrack read_alignment(const std::filesystem::path& file,
                                        const AlignmentSource& source);
 

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <boost/polygon/voronoi.hpp>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "app/design/surface.hpp"
@@ -21,19 +24,119 @@ using GridPoint = boost::polygon::point_data<int>;
 constexpr double kGrid_m = 1e-4;
 constexpr double kMostExtent_m = 2e5;
 
-std::vector<Eigen::Vector3d> points_of(const std::filesystem::path& file) {
+/// What a point's column is: its place among x, y and z, or none of them.
+constexpr std::size_t kNoPlace = 3;
+
+/// In capitals, without blanks and without what is in brackets.
+std::string plain_word(std::string_view word) {
+  std::string plain;
+  for (const char letter : word.substr(0, word.find_first_of("([<"))) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) != 0) {
+      plain += static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    }
+  }
+  return plain;
+}
+
+std::size_t place_of_name(std::string_view name) {
+  static const std::map<std::string, std::size_t> known = {
+      {"X", 0},      {"E", 0},     {"EAST", 0},  {"EASTING", 0},  {"EASTINGS", 0},
+      {"Y", 1},      {"N", 1},     {"NORTH", 1}, {"NORTHING", 1}, {"NORTHINGS", 1},
+      {"Z", 2},      {"H", 2},     {"EL", 2},    {"ELEV", 2},     {"ELEVATION", 2},
+      {"HEIGHT", 2}, {"LEVEL", 2}, {"RL", 2},    {"ALTITUDE", 2}};
+  const auto found = known.find(plain_word(name));
+  return found == known.end() ? kNoPlace : found->second;
+}
+
+/// The unit that a name of a column has in brackets; empty: none.
+std::string unit_of_name(std::string_view name) {
+  const std::size_t open = name.find_first_of("([<");
+  return open == std::string_view::npos
+             ? ""
+             : plain_word(name.substr(open + 1, name.find_first_of(")]>", open) - open - 1));
+}
+
+/// Where x, y and z are, of columns that are each at one place; what it returns is wrong.
+std::string take_places(const std::vector<std::size_t>& places, machines::CellOfNumber& cell) {
+  cell.assign(3, places.size());
+  for (std::size_t column = 0; column < places.size(); ++column) {
+    if (places[column] == kNoPlace) {
+      continue;
+    }
+    if (cell[places[column]] != places.size()) {
+      return fmt::format("two columns for {}; allowed: one", "xyz"[places[column]]);
+    }
+    cell[places[column]] = column;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (cell[i] == places.size()) {
+      return fmt::format("no column for {}; allowed: x or easting, y or northing, z or elevation",
+                         "xyz"[i]);
+    }
+  }
+  return "";
+}
+
+std::string take_header(const std::vector<std::string_view>& words, double metres,
+                        machines::CellOfNumber& cell) {
+  std::vector<std::size_t> places;
+  for (const std::string_view word : words) {
+    places.push_back(place_of_name(word));
+    const std::string unit = unit_of_name(word);
+    const bool is_feet = unit.find('F') != std::string::npos;
+    if (places.back() != kNoPlace && !unit.empty() && is_feet != (metres != 1.0)) {
+      return fmt::format("'{}' against a unit of {} m; allowed: --units as the file has them", word,
+                         metres);
+    }
+  }
+  return take_places(places, cell);
+}
+
+machines::CellOfNumber cells_by_letters(const std::string& columns) {
+  std::vector<std::size_t> places;
+  for (const char letter : columns) {
+    const std::string name(1, letter);
+    const bool is_other = plain_word(name) == "P" || plain_word(name) == "D";
+    if (!is_other && place_of_name(name) == kNoPlace) {
+      throw std::runtime_error(fmt::format(
+          "--columns {}: '{}'; allowed: P, N, E, X, Y, Z, D, as in PNEZD", columns, letter));
+    }
+    places.push_back(place_of_name(name));
+  }
+  machines::CellOfNumber cell;
+  const std::string wrong = take_places(places, cell);
+  if (!wrong.empty()) {
+    throw std::runtime_error(fmt::format("--columns {}: {}", columns, wrong));
+  }
+  return cell;
+}
+
+std::vector<Eigen::Vector3d> points_of(const std::filesystem::path& file,
+                                       const PointFormat& format) {
   std::vector<Eigen::Vector3d> points;
-  machines::read_number_lines(
-      file, {3, "x, y and z, m", kMostPoints}, [&](std::size_t, const machines::LineOfNumbers& at) {
-        for (unsigned i = 0; i < 3; ++i) {
-          const double most_m = i == 2 ? kMostHeight_m : kMostPlan_m;
-          if (std::abs(at[i]) > most_m) {
-            return fmt::format("{} = {} m; allowed: {} .. {} m", "xyz"[i], at[i], -most_m, most_m);
-          }
-        }
-        points.emplace_back(at[0], at[1], at[2]);
-        return std::string();
-      });
+  machines::Columns columns{
+      3, "x, y and z, m; more columns or another order by --columns, as PNEZD", kMostPoints};
+  columns.header = [&](const std::vector<std::string_view>& words, machines::CellOfNumber& cell) {
+    // Told, the order is that, whatever the file calls it.
+    return format.columns.empty() ? take_header(words, format.metres, cell) : std::string();
+  };
+  if (!format.columns.empty()) {
+    columns.cell = cells_by_letters(format.columns);
+  }
+  machines::read_number_lines(file, columns,
+                              [&](std::size_t, const machines::LineOfNumbers& numbers) {
+                                Eigen::Vector3d at_m;
+                                for (unsigned i = 0; i < 3; ++i) {
+                                  at_m[i] = numbers[i] * format.metres;
+                                  const double most_m = i == 2 ? kMostHeight_m : kMostPlan_m;
+                                  if (std::abs(at_m[i]) > most_m) {
+                                    return fmt::format("{} = {} m; allowed: {} .. {} m", "xyz"[i],
+                                                       at_m[i], -most_m, most_m);
+                                  }
+                                }
+                                points.push_back(at_m);
+                                return std::string();
+                              });
   return points;
 }
 
@@ -95,8 +198,20 @@ void triangulate(const std::vector<GridPoint>& grid, Surface& surface) {
 
 }  // namespace
 
-Surface read_points(const std::filesystem::path& file) {
-  Surface surface{points_of(file), {}};
+double metres_of_unit(const std::string& unit) {
+  constexpr double kFoot_m = 0.3048;
+  constexpr double kSurveyFoot_m = 1200.0 / 3937.0;
+  if (unit.empty() || unit == "m") {
+    return 1.0;
+  }
+  if (unit != "ft" && unit != "us-ft") {
+    throw std::runtime_error(fmt::format("--units {}; allowed: m, ft, us-ft", unit));
+  }
+  return unit == "ft" ? kFoot_m : kSurveyFoot_m;
+}
+
+Surface read_points(const std::filesystem::path& file, const PointFormat& format) {
+  Surface surface{points_of(file, format), {}};
   if (!surface.point_m.empty()) {
     triangulate(on_grid(file, surface), surface);
   }

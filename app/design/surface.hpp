@@ -28,8 +28,21 @@ inline constexpr double kMostHeight_m = 1e4;
 /// can't be read, ProfileError with what is wrong, its line and what is allowed.
 [[nodiscard]] Surface read_landxml(const std::filesystem::path& file, const std::string& name);
 
-/// A line a point: x, y, z; between them Delaunay's triangles, out to the hull of all points.
-/// Throws as read_landxml.
-[[nodiscard]] Surface read_points(const std::filesystem::path& file);
+/// How a file of points has them.
+struct PointFormat {
+  /// What each column is, a letter each: P a point's name, N or Y its northing, E or X its easting,
+  /// Z its height, D a description, which may have any number of words. None: as the file's first
+  /// line names them, else x, y and z.
+  std::string columns;
+  double metres = 1.0;  ///< Of its unit of length.
+};
+
+/// Metres of a unit's name: m, ft, us-ft; empty: m. Throws std::runtime_error for any other.
+[[nodiscard]] double metres_of_unit(const std::string& unit);
+
+/// A line a point; between them Delaunay's triangles, out to the hull of all points. Throws as
+/// read_landxml.
+[[nodiscard]] Surface read_points(const std::filesystem::path& file,
+                                  const PointFormat& format = {});
 
 }  // namespace graben::design

@@ -122,7 +122,10 @@ class Channels {
 
   /// Writes the frame; false where no channel is for it.
   bool take(const identify::LoggedFrame& frame, std::uint64_t time_ns) {
-    auto channel = channels_.find({frame.extended, frame.id});
+    auto channel = channels_.find(key_of(frame.extended, frame.id));
+    if (channel == channels_.end() && frame.extended) {
+      channel = channels_.find({true, identity_of(frame.id | 0xFFU) & ~std::uint32_t{1}});
+    }
     if (channel == channels_.end() && frame.extended) {
       if (std::optional<JsonMessage> sensor = link_sensor_message(frame.id)) {
         channel = add(std::move(*sensor), "j1939");
@@ -144,8 +147,12 @@ class Channels {
   };
   using Map = std::map<CanId, Channel>;
 
+  static CanId key_of(bool extended, std::uint32_t id) {
+    return {extended, extended ? identity_of(id) : id};
+  }
+
   Map::iterator add(JsonMessage message, const std::string& owner) {
-    const CanId key{message.extended, message.id};
+    const CanId key = key_of(message.extended, message.id);
     const auto known = channels_.find(key);
     if (known != channels_.end()) {
       return known;
@@ -160,33 +167,6 @@ class Channels {
   Map channels_;
 };
 
-/// Stamps that do not go back.
-class Clock {
- public:
-  explicit Clock(const std::filesystem::path& log) : log_(log) {}
-
-  std::uint64_t stamp(const identify::LoggedFrame& frame) {
-    const auto time_ns = static_cast<std::uint64_t>(std::llround(frame.time_s * 1e6)) * kNsPerUs;
-    if (time_ns < now_ns_) {
-      if (static_cast<double>(now_ns_ - time_ns) * 1e-9 > kMostBack_s) {
-        throw std::runtime_error(fmt::format(
-            "{}:{}: the stamp goes back by {:.1f} s; at most {:.0f} s is taken for disorder",
-            log_.string(), frame.line, static_cast<double>(now_ns_ - time_ns) * 1e-9, kMostBack_s));
-      }
-      ++late;
-      return now_ns_;
-    }
-    now_ns_ = time_ns;
-    return time_ns;
-  }
-
-  std::size_t late = 0;
-
- private:
-  const std::filesystem::path& log_;
-  std::uint64_t now_ns_ = 0;
-};
-
 }  // namespace
 
 ExportCounts export_mcap(const std::filesystem::path& log, const std::filesystem::path& mcap,
@@ -198,22 +178,18 @@ ExportCounts export_mcap(const std::filesystem::path& log, const std::filesystem
   McapWriter writer(mcap, "graben");
   Channels channels(writer, run.is_dozer, bus ? &*bus : nullptr);
   StateWords words(writer, run.is_dozer ? runs::dozer_actuators() : runs::excavator_actuators());
-  Clock clock(log);
-  identify::read_versioned(
-      log,
-      [&](const identify::LoggedFrame& frame) {
-        const std::uint64_t time_ns = clock.stamp(frame);
-        if (!channels.take(frame, time_ns)) {
-          ++counts.foreign[{frame.extended, frame.id}];
-        } else if (frame.extended && frame.id == Status::kId) {
-          words.take(Status::decode(frame.data), time_ns, frame.line);
-        }
-      },
-      identify::CutLine::kPassedOver);
+  static_cast<void>(identify::read_versioned(log, [&](const identify::LoggedFrame& frame) {
+    const auto time_ns = static_cast<std::uint64_t>(std::llround(frame.time_s * 1e6)) * kNsPerUs;
+    if (!channels.take(frame, time_ns)) {
+      ++counts.foreign[{frame.extended, frame.id}];
+    } else if (frame.extended && frame.id == Status::kId) {
+      words.take(Status::decode(frame.data), time_ns, frame.line);
+    }
+  }));
   writer.finish();
   counts.messages = writer.messages();
   counts.channels = channels.count() + 2;
-  counts.late = clock.late;
+  counts.notes = run.read.notes();
   counts.duration_s = run.until_s - run.from_s;
   return counts;
 }

@@ -10,7 +10,9 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "app/machines/bus_file.hpp"
 
@@ -24,7 +26,7 @@ struct ExportCounts {
   std::size_t channels = 0;
   /// Frames that are on no channel, by their id.
   std::map<CanId, std::size_t> foreign;
-  std::size_t late = 0;  ///< Frames whose stamp was before that of the frame before them.
+  std::vector<std::string> notes;  ///< What else was in the log (LogRead).
   double duration_s = 0.0;
 };
 
@@ -32,13 +34,10 @@ struct ExportCounts {
 /// not; none: ours alone.
 using FindBus = std::function<std::optional<machines::BusFile>(std::uint32_t profile_hash)>;
 
-/// Stamps of one log may be a little out of order where several interfaces are in it: such a frame
-/// has the stamp of the one before it. Throws std::runtime_error with file, and line where it has
-/// one, where the log cannot be read (a last line that is cut is passed over), is of no controller
-/// of ours, or goes back by more than kMostBack_s; and where `mcap` cannot be written, which then
-/// is a part of a file.
+/// Stamps never go back (LogClock). Throws std::runtime_error with file, and line where it has one,
+/// where the log cannot be read or is of no controller of ours; and where `mcap` cannot be written,
+/// which then is a part of a file.
 [[nodiscard]] ExportCounts export_mcap(const std::filesystem::path& log,
                                        const std::filesystem::path& mcap, const FindBus& find_bus);
-inline constexpr double kMostBack_s = 1.0;
 
 }  // namespace graben::app_export

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "app/machines/missing_file.hpp"
+#include "app/machines/plain_text.hpp"
 
 namespace graben::identify {
 
@@ -29,6 +30,11 @@ bool Lines::next(std::string& line) {
   while (gzgets(file_.get(), part.data(), static_cast<int>(part.size())) != nullptr) {
     const std::string_view text(part.data());
     const bool ends = !text.empty() && text.back() == '\n';
+    // A text of one letter has a zero behind it too.
+    const bool has_more = part[0] == '\0' || part[1] != '\0' || part[2] != '\0';
+    if (number_ == 0 && line.empty() && has_more && machines::is_utf16({part.data(), 2})) {
+      throw std::runtime_error(fmt::format("{}: {}", path_, machines::kUtf16));
+    }
     if (text.empty() || (!ends && text.size() + 1 < part.size() && gzeof(file_.get()) == 0)) {
       throw std::runtime_error(fmt::format("{}:{}: is no text", path_, number_ + 1));
     }
@@ -45,8 +51,10 @@ bool Lines::next(std::string& line) {
   if (line.empty()) {
     return false;
   }
-  ++number_;
-  is_whole_ = line.back() == '\n';
+  if (++number_ == 1) {
+    machines::drop_byte_order_mark(line);
+  }
+  is_whole_ = !line.empty() && line.back() == '\n';
   while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) {
     line.pop_back();
   }

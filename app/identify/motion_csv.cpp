@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -12,6 +11,7 @@
 
 #include "app/identify/lines.hpp"
 #include "app/identify/motion_runs.hpp"
+#include "app/machines/plain_text.hpp"
 
 namespace graben::identify {
 namespace {
@@ -27,33 +27,20 @@ constexpr double kLeastAgreement = 0.5;
   throw std::runtime_error(fmt::format("{}: {}", where, what));
 }
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (std::size_t from = 0;;) {
-    const std::size_t comma = line.find(',', from);
-    cells.push_back(line.substr(from, comma - from));
-    if (comma == std::string_view::npos) {
-      return cells;
-    }
-    from = comma + 1;
-  }
-}
-
 double number(std::string_view cell, const std::string& where, std::string_view column) {
-  const std::string text(cell);
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
-    refuse(where, fmt::format("{} is \"{}\", not a number", column, text));
+  const auto value = machines::number_in(cell);
+  if (!value) {
+    refuse(where, fmt::format("{} is \"{}\", not a number: {}", column, cell,
+                              machines::not_a_number(cell)));
   }
-  return value;
+  return *value;
 }
 
 /// Which cell is what.
 class Columns {
  public:
   Columns(std::string_view header, std::string where) : where_(std::move(where)) {
-    for (const std::string_view name : split(header)) {
+    for (const std::string_view name : machines::cells_of(header)) {
       if (!at_.emplace(name, at_.size()).second) {
         refuse(where_, fmt::format("has the column {} twice", name));
       }
@@ -151,7 +138,10 @@ std::vector<MotionRun> read_motion_csv(const std::string& path) {
   std::string of_run;
   std::vector<std::string> seen;
   while (lines.next(line)) {
-    const std::vector<std::string_view> row = split(line);
+    const std::vector<std::string_view> row = machines::cells_of(line);
+    if (row.empty()) {
+      continue;
+    }
     if (row.size() != columns.size()) {
       refuse(lines.where(), fmt::format("has {} cells, the header {}: is the file cut off?",
                                         row.size(), columns.size()));

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,17 +59,17 @@ void check_overlap(TomlReader& reader, const BusTable& table, std::size_t messag
 
 /// EEC1 is the machine's where the table takes the engine's speed: ours is then off.
 bool is_engines(const BusTable& table, std::uint32_t id) {
-  return id == dbc::common::EEC1::kId && table.has_engine;
+  return is_named_by(dbc::common::EEC1::kId, id) && table.has_engine;
 }
 
 void check_ids(TomlReader& reader, const BusTable& table) {
-  std::set<std::uint32_t> own;
-  for (const std::uint32_t id : ExcavatorReceiver::ids()) {
-    own.insert(id);
-  }
-  for (const std::uint32_t id : ExcavatorTransmitter::ids()) {
-    own.insert(id);
-  }
+  const auto is_own = [](std::uint32_t named) {
+    const auto is_it = [named](std::uint32_t id) { return is_named_by(id, named); };
+    const auto taken = ExcavatorReceiver::ids();
+    const auto sent = ExcavatorTransmitter::ids();
+    return std::any_of(taken.begin(), taken.end(), is_it) ||
+           std::any_of(sent.begin(), sent.end(), is_it);
+  };
   const auto refuse = [&](const std::string& key, std::uint32_t id, const char* whose) {
     reader.fail(key,
                 fmt::format("its id 0x{:X} is that of {}; allowed: one of its own", id, whose));
@@ -84,20 +83,25 @@ void check_ids(TomlReader& reader, const BusTable& table) {
   };
   for (std::size_t i = 0; i < table.message_count; ++i) {
     const std::uint32_t id = table.rule[i].id;
-    if (own.count(id) != 0U && !is_engines(table, id)) {
+    if (is_own(id) && !is_engines(table, id)) {
       refuse(fmt::format("receive[{}]", i), id, "a message of our own bus");
     }
-    seen.emplace_back(id, table.message[i].bus);
+    seen.emplace_back(identity_of(id), table.message[i].bus);
   }
   for (std::size_t i = 0; i < table.send_count; ++i) {
     const std::uint32_t id = table.send[i].rule.id;
     const std::string key = fmt::format("send[{}]", i);
-    if (own.count(id) != 0U) {
+    if (is_own(id)) {
       refuse(key, id, "a message of our own bus");
-    } else if (is_seen(id, table.send[i].bus)) {
+    } else if (table.send[i].extended && is_of_any_source(id)) {
+      reader.fail(key,
+                  fmt::format("its id 0x{:X} has source FE, which is nobody's; allowed: an `id` "
+                              "with the source that the valves listen to",
+                              id));
+    } else if (is_seen(identity_of(id), table.send[i].bus)) {
       refuse(key, id, "another message of this file");
     }
-    seen.emplace_back(id, table.send[i].bus);
+    seen.emplace_back(identity_of(id), table.send[i].bus);
   }
 }
 

@@ -166,6 +166,7 @@ BusContext read_context(TomlReader& reader, const std::filesystem::path& file) {
       context.dbc = read_dbc(file.parent_path() / context.dbc_name);
     } catch (const std::runtime_error& error) {
       reader.fail("dbc", error.what());
+      context.is_unread = true;
     }
   }
   const int count = reader.has("interface")
@@ -201,6 +202,18 @@ std::vector<BusWords> words_of(const toml::table& root, const char* list) {
   return all;
 }
 
+void throw_named_errors(const std::filesystem::path& file, const toml::table& root,
+                        const TomlReader& reader) {
+  if (reader.errors().empty()) {
+    return;
+  }
+  std::vector<std::string> errors;
+  for (const std::string& error : reader.errors()) {
+    errors.push_back(with_names(root, error));
+  }
+  throw ProfileError(file.string(), errors);
+}
+
 }  // namespace
 
 BusFile load_bus(const std::filesystem::path& file) {
@@ -210,6 +223,9 @@ BusFile load_bus(const std::filesystem::path& file) {
   BusFile bus;
   bus.speaks = reader.text("bus", "which machine's bus this is");
   const BusContext context = read_context(reader, file);
+  if (context.is_unread) {
+    throw_named_errors(file, document.root, reader);
+  }
   bus.table.bus_count = static_cast<std::uint8_t>(context.interfaces.size());
   bus.table.own_frames =
       reader.boolean_or(false, "own_frames", "the machine's end speaks our DBC beside it");
@@ -219,13 +235,7 @@ BusFile load_bus(const std::filesystem::path& file) {
   check_bus(reader, bus.table);
   bus.capabilities = capabilities_of(reader, bus.table);
   reader.refuse_unknown_keys();
-  if (!reader.errors().empty()) {
-    std::vector<std::string> errors;
-    for (const std::string& error : reader.errors()) {
-      errors.push_back(with_names(document.root, error));
-    }
-    throw ProfileError(file.string(), errors);
-  }
+  throw_named_errors(file, document.root, reader);
   bus.received = words_of(document.root, "receive");
   bus.sent = words_of(document.root, "send");
   bus.hash = reader.hash();

@@ -20,6 +20,9 @@ const DbcMessage* message_in(TomlReader& reader, const BusContext& context,
   std::vector<std::string> names;
   for (const DbcMessage& message : context.dbc) {
     names.push_back(message.name);
+    if (message.name == declared.name && !message.wrong.empty()) {
+      reader.fail(declared.key + ".message", message.wrong);
+    }
     if (message.name == declared.name) {
       return &message;
     }
@@ -42,7 +45,11 @@ DbcSignal read_layout(TomlReader& reader, const Declared& message, const std::st
       names.push_back(each.name);
       if (each.name == name) {
         signal = each;
-        if (!signal.supported) {
+        if (!signal.wrong.empty()) {
+          reader.fail(key, signal.wrong);
+          signal.bits = {0, 1, false, false};
+          signal.most = 1.0;
+        } else if (!signal.supported) {
           reader.fail(key, "multiplexed, a float, or more than 32 bits: not supported");
         }
         return signal;
@@ -86,7 +93,12 @@ Declared read_message(TomlReader& reader, const BusContext& context, const std::
   declared.name = reader.text(key + ".message", "name of the message");
   declared.dbc = message_in(reader, context, declared);
   if (declared.dbc != nullptr) {
-    declared.id = declared.dbc->id;
+    // A profile may name the sender that a DBC leaves open, or the one of several.
+    declared.id = reader.has(key + ".id")
+                      ? static_cast<std::uint32_t>(reader.integer(
+                            key + ".id", 0, declared.dbc->extended ? kMostId29 : kMostId11,
+                            "its id, instead of the DBC's"))
+                      : declared.dbc->id;
     declared.extended = declared.dbc->extended;
     declared.length = declared.dbc->length;
   } else {
@@ -97,7 +109,9 @@ Declared read_message(TomlReader& reader, const BusContext& context, const std::
         reader.has(key + ".length") ? reader.integer(key + ".length", 1, 8, "data bytes") : 8;
   }
   if (declared.length < 1 || declared.length > 8) {
-    reader.fail(key + ".message", fmt::format("{} bytes; allowed: 1 .. 8", declared.length));
+    if (declared.dbc == nullptr || declared.dbc->wrong.empty()) {
+      reader.fail(key + ".message", fmt::format("{} bytes; allowed: 1 .. 8", declared.length));
+    }
     declared.length = 8;
   }
   if (!context.interfaces.empty()) {

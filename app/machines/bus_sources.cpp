@@ -111,8 +111,8 @@ void check_received(TomlReader& reader, const BusTable& table, std::size_t messa
     const std::uint8_t bus = table.message[i].bus;
     const std::uint8_t own = table.message[message].bus;
     const bool apart = bus != kAnyBus && own != kAnyBus && bus != own;
-    if (table.rule[i].id == table.rule[message].id && !apart) {
-      reader.fail(key, "its id is that of another message");
+    if (same_message(table.rule[i].id, table.rule[message].id) && !apart) {
+      reader.fail(key, "its id is that of another message, whatever its priority");
     }
   }
   const std::size_t end = std::size_t{table.message[message].first} + table.message[message].count;

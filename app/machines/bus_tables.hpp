@@ -15,6 +15,7 @@ namespace graben::machines {
 struct BusContext {
   std::vector<DbcMessage> dbc;  ///< Empty: layouts stand in the profile itself.
   std::string dbc_name;
+  bool is_unread = false;  ///< The DBC that it names: whatever else is wrong follows from that.
   std::vector<std::string> interfaces;  ///< In the order of the process's buses; empty: one.
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -118,6 +119,29 @@ std::string take_corner(const LineOfNumbers& numbers, DesignLine& line) {
   return wrong;
 }
 
+/// Of a first line of names: empty where they stand in the order of the numbers.
+std::string header_wrong(const std::vector<std::string_view>& words) {
+  static const std::vector<std::vector<std::string>> known = {
+      {"x", "station", "sta", "chainage", "distance", "along"},
+      {"z", "h", "height", "elevation", "elev", "level"},
+      {"slope", "cross", "crossfall", "cross_slope"},
+      {"curvature"}};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    std::string word(words[i].substr(0, words[i].find_first_of(" ([_")));
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    const bool is_there =
+        i < known.size() && std::find(known[i].begin(), known[i].end(), word) != known[i].end();
+    if (!is_there) {
+      return fmt::format(
+          "column {}: '{}'; allowed: numbers, or as names x, height, slope, "
+          "curvature in this order",
+          i + 1, words[i]);
+    }
+  }
+  return "";
+}
+
 /// The corners every GradeHeights::kStep_m, rounded.
 std::shared_ptr<const std::vector<double>> on_grid(const std::vector<GradePoint>& corners,
                                                    double rounding_m) {
@@ -143,14 +167,21 @@ std::shared_ptr<const std::vector<double>> on_grid(const std::vector<GradePoint>
 
 DesignLine read_design(const std::filesystem::path& file) {
   DesignLine line;
-  const Columns columns{
+  Columns columns{
       2,
       "x along the track and height over the plane, m, and it may be the slope across, and the "
       "track's curvature",
       kMostCorners, 2};
+  columns.header = [](const std::vector<std::string_view>& words, CellOfNumber&) {
+    return header_wrong(words);
+  };
   read_number_lines(file, columns, [&](std::size_t, const LineOfNumbers& numbers) {
     return take_corner(numbers, line);
   });
+  // Curvature alone: level across.
+  if (!line.curvature.empty() && line.cross.empty()) {
+    line.cross.assign(line.corners.size(), 0.0);
+  }
   const std::vector<GradePoint>& corners = line.corners;
   const double length_m = corners.size() > 1 ? corners.back().x_m - corners.front().x_m : 0.0;
   const double most_m = (GradeHeights::kMost - 1) * GradeHeights::kStep_m;

@@ -3,89 +3,101 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
-#include <fstream>
-#include <iterator>
+#include <algorithm>
+#include <cctype>
 #include <limits>
 #include <string_view>
 
-#include "app/machines/missing_file.hpp"
 #include "app/machines/profile_file.hpp"
 
 namespace graben::machines {
 namespace {
 
 constexpr std::size_t kMostErrors = 10;
-constexpr std::string_view kBetween = " \t,;\r";
 
-/// Of one line, without its comment.
-class LineNumbers {
+class NumberLines {
  public:
-  explicit LineNumbers(std::string_view line) : rest_(line.substr(0, line.find('#'))) { skip(); }
+  NumberLines(const Columns& columns, const TakeNumbers& take)
+      : columns_(columns), take_(take), cell_(columns.cell) {}
 
-  [[nodiscard]] bool done() const { return rest_.empty(); }
-  /// The next word as a number; empty where it is one.
-  [[nodiscard]] std::string next(double& number) {
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBetween));
-    const char* const end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, number);
-    rest_.remove_prefix(word.size());
-    skip();
-    constexpr std::size_t kShown = 30;
-    const bool is_number = error == std::errc() && stop == end && std::isfinite(number);
-    return is_number ? "" : fmt::format("'{}' is no finite number", word.substr(0, kShown));
+  /// What is wrong with the line; empty: nothing.
+  std::string take_line(std::size_t number, std::string_view line) {
+    const std::vector<std::string_view> cells = cells_of(line.substr(0, line.find('#')));
+    if (cells.empty()) {
+      return "";
+    }
+    const bool is_first = !any_;
+    any_ = true;
+    if (is_first && columns_.header && is_header(cells)) {
+      return columns_.header(cells, cell_);
+    }
+    return cell_.empty() ? in_order(number, cells) : by_place(number, cells);
   }
 
  private:
-  void skip() { rest_.remove_prefix(std::min(rest_.find_first_not_of(kBetween), rest_.size())); }
+  static bool is_header(const std::vector<std::string_view>& cells) {
+    const auto is_name = [](std::string_view cell) {
+      return !cell.empty() && std::isalpha(static_cast<unsigned char>(cell.front())) != 0;
+    };
+    return std::any_of(cells.begin(), cells.end(), is_name) &&
+           std::none_of(cells.begin(), cells.end(),
+                        [](std::string_view cell) { return number_in(cell).has_value(); });
+  }
 
-  std::string_view rest_;
+  static LineOfNumbers none() {
+    LineOfNumbers numbers{};
+    numbers.fill(std::numeric_limits<double>::quiet_NaN());
+    return numbers;
+  }
+
+  std::string in_order(std::size_t number, const std::vector<std::string_view>& cells) {
+    LineOfNumbers numbers = none();
+    const std::size_t most = columns_.count + columns_.more;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const auto value = number_in(cells[i]);
+      const bool may_lack = cells[i].empty() && i >= columns_.count;
+      if (!value && !may_lack) {
+        return fmt::format("{}; allowed: {}", not_a_number(cells[i]), columns_.names);
+      }
+      if (value && i < most) {
+        numbers[i] = *value;
+      }
+    }
+    const std::size_t count = cells.size();
+    const std::string allowed = columns_.more > 0 ? fmt::format("{} .. {}", columns_.count, most)
+                                                  : std::to_string(columns_.count);
+    return count >= columns_.count && count <= most
+               ? take_(number, numbers)
+               : fmt::format("{} number{}; allowed: {}, {}", count, count == 1 ? "" : "s", allowed,
+                             columns_.names);
+  }
+
+  std::string by_place(std::size_t number, const std::vector<std::string_view>& cells) {
+    LineOfNumbers numbers = none();
+    for (std::size_t i = 0; i < cell_.size(); ++i) {
+      const std::string_view cell = cell_[i] < cells.size() ? cells[cell_[i]] : std::string_view();
+      const auto value = number_in(cell);
+      if (!value) {
+        return fmt::format("column {}: {}; allowed: {}", cell_[i] + 1, not_a_number(cell),
+                           columns_.names);
+      }
+      numbers[i] = *value;
+    }
+    return take_(number, numbers);
+  }
+
+  const Columns& columns_;
+  const TakeNumbers& take_;
+  CellOfNumber cell_;
+  bool any_ = false;
 };
-
-/// What is wrong with the line; empty: nothing.
-std::string take_line(std::size_t number, std::string_view line, const Columns& columns,
-                      const TakeNumbers& take) {
-  LineNumbers words(line);
-  LineOfNumbers numbers{};
-  numbers.fill(std::numeric_limits<double>::quiet_NaN());
-  const std::size_t most = columns.count + columns.more;
-  std::size_t count = 0;
-  for (; !words.done(); ++count) {
-    double value = 0.0;
-    const std::string wrong = words.next(value);
-    if (!wrong.empty()) {
-      return fmt::format("{}; allowed: {}", wrong, columns.names);
-    }
-    if (count < most) {
-      numbers[count] = value;
-    }
-  }
-  if (count == 0) {
-    return "";
-  }
-  const std::string allowed = columns.more > 0 ? fmt::format("{} .. {}", columns.count, most)
-                                               : std::to_string(columns.count);
-  return count >= columns.count && count <= most
-             ? take(number, numbers)
-             : fmt::format("{} number{}; allowed: {}, {}", count, count == 1 ? "" : "s", allowed,
-                           columns.names);
-}
 
 }  // namespace
 
-std::string file_text(const std::filesystem::path& file, const std::string& wanted) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.good() && !stream.eof()) {
-    throw std::runtime_error(unread_text(file, wanted));
-  }
-  return text;
-}
-
 void read_number_lines(const std::filesystem::path& file, const Columns& columns,
                        const TakeNumbers& take) {
-  const std::string text = file_text(file, fmt::format("lines of {}", columns.names));
+  const std::string text = plain_text(file, fmt::format("lines of {}", columns.names));
+  NumberLines lines(columns, take);
   std::vector<std::string> errors;
   std::size_t number = 0;
   for (std::size_t at = 0; at < text.size() && errors.size() < kMostErrors;) {
@@ -96,8 +108,7 @@ void read_number_lines(const std::filesystem::path& file, const Columns& columns
           fmt::format("line {}: allowed: at most {} lines", number, columns.most_lines));
       break;
     }
-    const std::string wrong =
-        take_line(number, std::string_view(text).substr(at, end - at), columns, take);
+    const std::string wrong = lines.take_line(number, std::string_view(text).substr(at, end - at));
     if (!wrong.empty()) {
       errors.push_back(fmt::format("line {}: {}", number, wrong));
     }

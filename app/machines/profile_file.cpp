@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -12,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "app/machines/missing_file.hpp"
 #include "app/machines/near_word.hpp"
+#include "app/machines/plain_text.hpp"
 
 namespace graben::machines {
 namespace {
@@ -25,13 +23,8 @@ const std::string& kind_name(MachineKind kind) {
 constexpr std::string_view kSimulation = ".sim.toml";
 
 std::string read_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   // An empty file can be read; what it lacks is said later.
-  if (!stream.good() && !stream.eof()) {
-    throw std::runtime_error(unread_text(file, "a file in TOML"));
-  }
-  return text;
+  return plain_text(file, "a file in TOML");
 }
 
 ProfileDocument read_alone(const std::filesystem::path& file) {
@@ -219,9 +212,11 @@ std::string syntax_words(const std::string& text, const toml::parse_error& error
   }
   constexpr std::size_t kShown = 60;
   line = line.size() > kShown ? line.substr(0, kShown) + " ..." : line;
+  const std::string strange = strange_character(line);
   const bool is_twice = error.description().find("redefine") != std::string_view::npos;
-  return fmt::format("line {}, column {}: {}: {}", at.line, at.column,
-                     is_twice ? "is there for the second time" : "can't be read as TOML", line);
+  return fmt::format("line {}, column {}: {}: {}{}", at.line, at.column,
+                     is_twice ? "is there for the second time" : "can't be read as TOML", line,
+                     strange.empty() ? "" : "; it has " + strange);
 }
 
 void require_kind(const ProfileDocument& document, TomlReader& reader, MachineKind kind) {

@@ -39,15 +39,15 @@ void BusSurvey::hear(const CanFrame& frame, TimeUs now) {
     ++short_ids_;
     return;
   }
-  ++count_[frame.id];
-  if (frame.id == Identity::kId && frame.length == Identity::kLength) {
+  ++count_[identity_of(frame.id)];
+  if (same_message(frame.id, Identity::kId) && frame.length == Identity::kLength) {
     machine_.said = Identity::decode(frame.data);
     machine_.at_us = now;
   }
 }
 
 int BusSurvey::count(std::uint32_t id) const {
-  const auto found = count_.find(id);
+  const auto found = count_.find(identity_of(id));
   return found == count_.end() ? 0 : found->second;
 }
 
@@ -56,7 +56,7 @@ std::vector<std::string> BusSurvey::lines(const ExcavatorProfile& profile, doubl
   std::vector<std::string> lines;
   std::map<std::uint32_t, int> others = count_;
   for (const dbc::MessageInfo& message : EcuListener::Dbc::kMessages) {
-    others.erase(message.id);
+    others.erase(identity_of(message.id));
     const int heard = count(message.id);
     const bool has_swing = profile.drive_count == kDriveCount;
     if (heard > 0) {

@@ -28,7 +28,7 @@ bool is_operator_command(std::uint32_t id) {
 
 template <class Message>
 void EcuListener::take(const CanFrame& frame, TimeUs now, Heard<Message>& to) {
-  if (frame.id == Message::kId) {
+  if (same_message(frame.id, Message::kId)) {
     to.said = Message::decode(frame.data);
     to.at_us = now;
   }
@@ -37,13 +37,13 @@ void EcuListener::take(const CanFrame& frame, TimeUs now, Heard<Message>& to) {
 template <class Message>
 void EcuListener::take_stroke(const CanFrame& frame, dbc::Physical Message::*signal, TimeUs now,
                               Stroke& to) {
-  if (frame.id == Message::kId) {
+  if (same_message(frame.id, Message::kId)) {
     to = {Message::decode(frame.data).*signal, now};
   }
 }
 
 void EcuListener::take_trouble(const CanFrame& frame, TimeUs now) {
-  if (frame.id != Dbc::DM1::kId) {
+  if (!same_message(frame.id, Dbc::DM1::kId)) {
     return;
   }
   const auto trouble = Dbc::DM1::decode(frame.data);

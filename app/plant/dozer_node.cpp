@@ -48,16 +48,16 @@ void DozerNode::step(TimeUs now) {
 }
 
 void DozerNode::take(const CanFrame& frame, TimeUs now) {
-  if (frame.id == bus::SpoolCommand::kId) {
+  if (same_message(frame.id, bus::SpoolCommand::kId)) {
     take_spool_command(frame, now);
   }
   if (faults_.loses_displacement_commands) {
     return;
   }
-  if (frame.id == bus::PumpDisplacementCommand::kId) {
+  if (same_message(frame.id, bus::PumpDisplacementCommand::kId)) {
     take_pump_command(frame, now);
   }
-  if (frame.id == bus::MotorDisplacementCommand::kId) {
+  if (same_message(frame.id, bus::MotorDisplacementCommand::kId)) {
     take_motor_command(frame, now);
   }
 }

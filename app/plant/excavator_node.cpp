@@ -147,13 +147,13 @@ void ExcavatorNode::take(const CanFrame& frame, TimeUs now) {
   if (plant_.profile().sold.silent) {
     return;
   }
-  if (frame.id == bus::SpoolCommand::kId) {
+  if (same_message(frame.id, bus::SpoolCommand::kId)) {
     take_spool_command(frame, now);
   }
-  if (frame.id == bus::SwingCommand::kId && has_swing()) {
+  if (same_message(frame.id, bus::SwingCommand::kId) && has_swing()) {
     take_swing_command(frame, now);
   }
-  if (frame.id == bus::PumpCommand::kId) {
+  if (same_message(frame.id, bus::PumpCommand::kId)) {
     take_pump_command(frame, now);
   }
 }

@@ -62,7 +62,7 @@ class MachineNode {
   void receive(const Take& take) {
     receive_frames(port_, [&](const CanFrame& frame) {
       echo_.hear(frame);
-      if (frame.id != SpoolCommand::kId || !faults_.loses_spool_commands) {
+      if (!same_message(frame.id, SpoolCommand::kId) || !faults_.loses_spool_commands) {
         take(frame);
       }
     });

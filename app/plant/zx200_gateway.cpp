@@ -22,8 +22,8 @@ dbc::Physical told(double value) { return {value, dbc::RawState::kValid}; }
 dbc::Count counted(std::uint32_t value) { return {value, dbc::RawState::kValid}; }
 
 bool is_frame_of(const CanFrame& frame, std::uint32_t id) {
-  return frame.id == id && frame.extended && !frame.remote && !frame.error && !frame.fd &&
-         frame.length == 8;
+  return same_message(frame.id, id) && frame.extended && !frame.remote && !frame.error &&
+         !frame.fd && frame.length == 8;
 }
 
 double share(const dbc::Physical& one_way, const dbc::Physical& other_way) {

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "app/identify/machine/candump_reader.hpp"
 #include "app/reports/report_file.hpp"
 
 namespace graben::reports {
@@ -80,6 +81,9 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 std::string packed(std::string_view text) { return base64(gzip(text)); }
 
 std::string packed_file(const std::filesystem::path& file) {
+  if (identify::is_other_log(file)) {
+    return packed(identify::candump_text(file));
+  }
   const std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> in(gzopen(file.c_str(), "rb"), gzclose);
   if (!in) {
     throw std::runtime_error(file.string() + ": " + std::generic_category().message(errno));

@@ -141,20 +141,25 @@ std::string limit_words(const Limit& limit, const ActuatorNames& actuators) {
   return row != nullptr ? row->text + owner_words(row->of, limit.index, actuators) : "unknown";
 }
 
-void LimitCount::add(const Limit& limit) {
-  ++cycles_[limit_words(limit, actuators_)];
-  ++all_;
+void LimitCount::add(const Limit& limit, double held_s) {
+  for (Held* to : {&held_[limit_words(limit, actuators_)], &all_}) {
+    to->time_s += held_s;
+    ++to->frames;
+  }
 }
 
 LimitShares LimitCount::shares() const {
-  const auto share = [this](long cycles) {
-    return all_ > 0 ? static_cast<double>(cycles) / static_cast<double>(all_) : 0.0;
+  const auto share = [this](const Held& held) {
+    // A single frame has no time before it.
+    return all_.time_s > 0.0 ? held.time_s / all_.time_s
+           : all_.frames > 0 ? static_cast<double>(held.frames) / static_cast<double>(all_.frames)
+                             : 0.0;
   };
-  const auto none = cycles_.find("none");
-  LimitShares shares = {{"none", share(none != cycles_.end() ? none->second : 0)}};
-  for (const auto& [name, cycles] : cycles_) {
+  const auto none = held_.find("none");
+  LimitShares shares = {{"none", share(none != held_.end() ? none->second : Held{})}};
+  for (const auto& [name, held] : held_) {
     if (name != "none") {
-      shares.emplace_back(name, share(cycles));
+      shares.emplace_back(name, share(held));
     }
   }
   return shares;

@@ -44,14 +44,19 @@ class LimitCount {
  public:
   explicit LimitCount(const ActuatorNames& actuators) : actuators_(actuators) {}
 
-  void add(const Limit& limit);
+  /// By the time that it held, s.
+  void add(const Limit& limit, double held_s);
   /// "none" first, the others by their words.
   [[nodiscard]] LimitShares shares() const;
 
  private:
   const ActuatorNames& actuators_;
-  std::map<std::string, long> cycles_;
-  long all_ = 0;
+  struct Held {
+    double time_s = 0.0;
+    long frames = 0;
+  };
+  std::map<std::string, Held> held_;
+  Held all_;
 };
 
 }  // namespace graben::runs

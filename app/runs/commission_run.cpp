@@ -23,17 +23,17 @@ class Ear {
           strokes_m[axis] = stroke.value;
         }
       };
-      if (frame.id == bus::BoomStroke::kId) {
+      if (same_message(frame.id, bus::BoomStroke::kId)) {
         take(0, bus::BoomStroke::decode(frame.data).boom_stroke_m);
-      } else if (frame.id == bus::ArmStroke::kId) {
+      } else if (same_message(frame.id, bus::ArmStroke::kId)) {
         take(1, bus::ArmStroke::decode(frame.data).arm_stroke_m);
-      } else if (frame.id == bus::BucketStroke::kId) {
+      } else if (same_message(frame.id, bus::BucketStroke::kId)) {
         take(2, bus::BucketStroke::decode(frame.data).bucket_stroke_m);
-      } else if (frame.id == bus::SpoolCommand::kId) {
+      } else if (same_message(frame.id, bus::SpoolCommand::kId)) {
         const auto spools = bus::SpoolCommand::decode(frame.data);
         sent_ratio = {spools.boom_duty_ratio.value, spools.arm_duty_ratio.value,
                       spools.bucket_duty_ratio.value};
-      } else if (frame.id == bus::EcuStatus::kId) {
+      } else if (same_message(frame.id, bus::EcuStatus::kId)) {
         mode = bus::EcuStatus::decode(frame.data).mode.value;
       }
     });

@@ -21,6 +21,31 @@ constexpr double kOtherPlace_m = 0.15;
 constexpr std::size_t kFirstStroke = 5;  ///< Of an excavator's channels.
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+/// Over the time of a log's pieces: a frame that is there twice, or lost, weighs nothing.
+class TimeMean {
+ public:
+  void add(double time_s, double value) {
+    const double passed_s = count_ > 0 ? identify::LogClock::counted_s(last_s_, time_s) : 0.0;
+    last_s_ = time_s;
+    sum_ += passed_s * value;
+    time_s_ += passed_s;
+    plain_ += value;
+    ++count_;
+  }
+
+  /// Of a single moment its value; not a number without one.
+  [[nodiscard]] double mean() const {
+    return time_s_ > 0.0 ? sum_ / time_s_ : plain_ / static_cast<double>(count_);
+  }
+
+ private:
+  double sum_ = 0.0;
+  double time_s_ = 0.0;
+  double plain_ = 0.0;
+  double last_s_ = 0.0;
+  int count_ = 0;
+};
+
 struct ErrorFigures {
   double most_m = kNone;
   double most_s = kNone;  ///< Since the run's start.
@@ -31,7 +56,7 @@ struct ErrorFigures {
 ErrorFigures error_figures(const RunLog& run) {
   const Channel& error = run.channel[1];
   ErrorFigures figures;
-  double squares_m2 = 0.0;
+  TimeMean square_m2;
   int count = 0;
   double before_m = 0.0;
   for (std::size_t i = 0; i < error.value.size(); ++i) {
@@ -44,7 +69,7 @@ ErrorFigures error_figures(const RunLog& run) {
       continue;
     }
     figures.arrived_s = count == 0 ? error.time_s[i] : figures.arrived_s;
-    squares_m2 += off_m * off_m;
+    square_m2.add(error.time_s[i], off_m * off_m);
     ++count;
     if (!(off_m <= figures.most_m)) {
       figures.most_m = off_m;
@@ -52,7 +77,7 @@ ErrorFigures error_figures(const RunLog& run) {
     }
   }
   if (count > 0) {
-    figures.rms_m = std::sqrt(squares_m2 / count);
+    figures.rms_m = std::sqrt(square_m2.mean());
   }
   return figures;
 }
@@ -65,19 +90,15 @@ struct LambdaFigures {
 /// While something was followed, a controller at rest has lambda 0; from the arrival on, if any.
 LambdaFigures lambda_figures(const RunLog& run, double arrived_s) {
   LambdaFigures figures;
-  double sum = 0.0;
-  int count = 0;
+  TimeMean mean;
   for (std::size_t i = 0; i < run.channel[0].value.size(); ++i) {
     const double lambda = run.channel[0].value[i];
     if (lambda > 0.0 && !(run.channel[0].time_s[i] < arrived_s)) {
       figures.least = lambda >= figures.least ? figures.least : lambda;
-      sum += lambda;
-      ++count;
+      mean.add(run.channel[0].time_s[i], lambda);
     }
   }
-  if (count > 0) {
-    figures.mean = sum / count;
-  }
+  figures.mean = mean.mean();
   return figures;
 }
 

@@ -98,6 +98,9 @@ class Reader {
   void status(const identify::LoggedFrame& frame) {
     const Status status = Status::decode(frame.data);
     const bool is_active = status.mode.value == Status::Mode::kActive;
+    const double passed_s = run_.status_s.empty()
+                                ? 0.0
+                                : identify::LogClock::counted_s(run_.status_s.back(), frame.time_s);
     put(0, frame, status.lambda);
     is_active_ = is_active;
     if (is_active) {
@@ -105,9 +108,10 @@ class Reader {
         is_started_ = true;
         run_.start_s = frame.time_s;
       }
-      run_.active_s += run_.status_s.empty() ? 0.0 : frame.time_s - run_.status_s.back();
+      run_.active_s += passed_s;
       limits().add({static_cast<LimitKind>(status.limit_kind.value),
-                    static_cast<std::uint8_t>(status.limit_index.value)});
+                    static_cast<std::uint8_t>(status.limit_index.value)},
+                   passed_s);
     }
     // What a controller waits for before it is ready is no fault.
     is_ready_ = is_ready_ || status.mode.value != Status::Mode::kSilent;
@@ -213,9 +217,8 @@ RunLog read_run_log(const std::filesystem::path& file) {
   RunLog run;
   run.name = file.string();
   Reader reader(run);
-  identify::read_versioned(
-      file, [&reader](const identify::LoggedFrame& frame) { reader.take(frame); },
-      identify::CutLine::kPassedOver);
+  run.read = identify::read_versioned(
+      file, [&reader](const identify::LoggedFrame& frame) { reader.take(frame); });
   reader.finish();
   return run;
 }

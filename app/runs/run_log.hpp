@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/identify/machine/candump_reader.hpp"
 #include "app/runs/code_text.hpp"
 
 namespace graben::runs {
@@ -45,7 +46,8 @@ struct RunStep {
 };
 
 struct RunLog {
-  std::string name;  ///< Of the file, as it was told.
+  std::string name;        ///< Of the file, as it was told.
+  identify::LogRead read;  ///< What else was in it.
   bool is_dozer = false;
   std::uint32_t profile_hash = 0;  ///< 0: not said.
   std::uint8_t task = 0;           ///< Last asked for while it was Active, but None.
@@ -55,19 +57,20 @@ struct RunLog {
   double from_s = 0.0;
   double until_s = 0.0;
   double start_s = 0.0;          ///< When the controller was first Active; else the first frame.
-  double active_s = 0.0;         ///< How long it was Active, all together.
+  double active_s = 0.0;         ///< How long it was Active, all together, in its pieces.
   LimitShares limit_share;       ///< While it was Active.
   std::vector<double> status_s;  ///< Times of EcuStatus.
   std::optional<double> first_fault_s;  ///< After it was ready.
   Fault first_fault = Fault::kNone;
 };
 
-/// Reads a candump log, plain or gzip; a last line that is cut is passed over. Throws
-/// std::runtime_error that names it where it cannot be read, has no candump lines, no EcuStatus, or
+/// Reads a log (read_candump). Throws std::runtime_error that names it where it cannot be read, has
+/// no lines of one, no EcuStatus, or
 /// another version of the DBC than is read (app/identify/machine/log_version.hpp).
 [[nodiscard]] RunLog read_run_log(const std::filesystem::path& file);
 
-/// What held lambda, or a dozer's speed: of all EcuStatus that say Active, the share of each limit.
+/// What held lambda, or a dozer's speed: of the time up to each EcuStatus that says Active, the
+/// share of each limit; by time, as frames may be lost or be there twice, and none across a gap.
 /// The one rule of terminal, page and comparison: the page counts the same frames in its window
 /// (view/limit_shares.ts). Throws as read_run_log(); none where the file is no regular one.
 [[nodiscard]] LimitShares logged_limit_shares(const std::filesystem::path& file);

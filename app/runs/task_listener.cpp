@@ -37,7 +37,7 @@ int TaskListener::receive(CanFrame* frames, int capacity) {
 void TaskListener::read(const CanFrame& frame) {
   const bool whole = frame.extended && !frame.remote && !frame.error && !frame.fd &&
                      frame.length == TaskStatus::kLength;
-  if (whole && frame.id == TaskStatus::kId) {
+  if (whole && same_message(frame.id, TaskStatus::kId)) {
     said_ = TaskStatus::decode(frame.data);
     said_us_ = now_us_;
   }

@@ -55,8 +55,7 @@ class LinkImus {
   LinkCounters counters_;
 };
 
-/// The 29-bit ids of their frames with the standard's priority, for a port's filters; 0 where there
-/// is no IMU.
+/// The 29-bit ids of their frames, for a port's filters; 0 where there is no IMU.
 [[nodiscard]] std::array<std::uint32_t, kImuCount * LinkImus::kMessagesEach> imu_ids(
     const ImuAddresses& address);
 

@@ -92,21 +92,29 @@ Signal<double>* TableReceiver::kept(const TableSource& source, ExcavatorInputs& 
   return source.place == SourcePlace::kSlope ? &slopes_.link[source.index] : place_of(source, to);
 }
 
+/// A message of just this sender before one of any.
 int TableReceiver::received(const CanFrame& frame) const {
+  int found = MessageLinks::kNoMessage;
   for (std::size_t i = 0; i < table_->message_count; ++i) {
     const std::uint8_t bus = table_->message[i].bus;
-    if (table_->rule[i].id == frame.id &&
-        (bus == kAnyBus || frame.bus == kAnyBus || bus == frame.bus)) {
+    const MessageRule& rule = table_->rule[i];
+    if (bus != kAnyBus && frame.bus != kAnyBus && bus != frame.bus) {
+      continue;
+    }
+    if (same_message(rule.id, frame.id)) {
       return static_cast<int>(i);
     }
+    if (rule.extended && frame.extended && is_named_by(frame.id, rule.id)) {
+      found = static_cast<int>(i);
+    }
   }
-  return MessageLinks::kNoMessage;
+  return found;
 }
 
 bool TableReceiver::is_sent(const CanFrame& frame) const {
   for (std::size_t i = 0; i < table_->send_count; ++i) {
     const TableSend& send = table_->send[i];
-    if (send.rule.id == frame.id && send.extended == frame.extended && !frame.remote &&
+    if (same_message(send.rule.id, frame.id) && send.extended == frame.extended && !frame.remote &&
         (send.bus == kAnyBus || frame.bus == kAnyBus || send.bus == frame.bus)) {
       return true;
     }

@@ -40,12 +40,14 @@ E2eMark mark_of(E2eCheck check) {
 MessageLinks::MessageLinks(const MessageRules& rules, const BusParts& parts) : rules_(rules) {
   for (std::size_t i = 0; i < rules_.count; ++i) {
     if (has_part(parts, rules_.rule[i].part)) {
-      known_[place_of(rules_.rule[i].id)] = {rules_.rule[i].id, static_cast<int>(i)};
+      const std::uint32_t identity = identity_of(rules_.rule[i].id);
+      known_[place_of(identity)] = {identity, static_cast<int>(i)};
     }
   }
   for (std::size_t i = 0; i < rules_.all_count; ++i) {
     if ((rules_.all[i].id & 0xFFU) == kOwnAddress) {
-      known_[place_of(rules_.all[i].id)] = {rules_.all[i].id, kOwnMessage};
+      const std::uint32_t identity = identity_of(rules_.all[i].id);
+      known_[place_of(identity)] = {identity, kOwnMessage};
     }
     if (rules_.all[i].is_protected) {
       fits_a_message_[e2e_signature(rules_.all[i].data_id)] = true;
@@ -53,14 +55,14 @@ MessageLinks::MessageLinks(const MessageRules& rules, const BusParts& parts) : r
   }
 }
 
-/// Where the id is, or where it would be.
-std::size_t MessageLinks::place_of(std::uint32_t id) const {
+/// Where the identity is, or where it would be.
+std::size_t MessageLinks::place_of(std::uint32_t identity) const {
   constexpr std::uint32_t kMultiplier = 0x9E3779B1U;  // Knuth: 2^32 over the golden ratio
   constexpr unsigned kShift = 26;
   static_assert(kPlaces == 1U << (32U - kShift));
-  std::size_t place = (id * kMultiplier) >> kShift;
+  std::size_t place = (identity * kMultiplier) >> kShift;
   for (std::size_t n = 0; n < kPlaces && known_[place].index != kNoMessage; ++n) {
-    if (known_[place].id == id) {
+    if (known_[place].identity == identity) {
       return place;
     }
     place = (place + 1) % kPlaces;

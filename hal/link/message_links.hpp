@@ -82,9 +82,9 @@ class MessageLinks {
   [[nodiscard]] bool take_out_of_range();
 
  private:
-  /// A place of the hash table of ids; linear probing.
+  /// A place of the hash table of identities (identity_of); linear probing.
   struct Known {
-    std::uint32_t id = 0;
+    std::uint32_t identity = 0;
     int index = kNoMessage;
   };
   static constexpr std::size_t kPlaces = 64;
@@ -96,8 +96,10 @@ class MessageLinks {
     int frames = 0;
   };
 
-  [[nodiscard]] std::size_t place_of(std::uint32_t id) const;
-  [[nodiscard]] int index_of(std::uint32_t id) const { return known_[place_of(id)].index; }
+  [[nodiscard]] std::size_t place_of(std::uint32_t identity) const;
+  [[nodiscard]] int index_of(std::uint32_t id) const {
+    return known_[place_of(identity_of(id))].index;
+  }
   [[nodiscard]] bool is_any_message(const CanFrame& frame) const;
   [[nodiscard]] int place_in_batch(std::size_t index, TimeUs now);
   void refuse_surplus(std::size_t index, int place, const CanFrame& frame, TimeUs now);

@@ -56,7 +56,7 @@ struct ReceptionOf {
 };
 
 /// Receives every frame of the bus, keeps those that are meant for the controller. A message is
-/// known by its whole 29-bit id: priority, page, PGN and source address.
+/// known by its PGN and source address, whatever its priority (identity_of).
 ///
 /// A frame is refused as a whole if its kind, length, CRC, counter or any of its values is wrong. A
 /// value that the sender itself calls 'error' or 'not available' is accepted as that: the signal

@@ -39,7 +39,7 @@ constexpr bool has_part(const BusParts& parts, BusPart part) {
 
 /// How a message that is received is known and protected.
 struct MessageRule {
-  std::uint32_t id = 0;  ///< Priority, page, PGN and source address.
+  std::uint32_t id = 0;  ///< Known by PGN and source address (identity_of).
   std::uint8_t length = 0;
   bool is_protected = false;
   E2eConfig e2e;

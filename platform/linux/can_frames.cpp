@@ -39,15 +39,16 @@ bool to_socketcan(const CanFrame& frame, can_frame& out) {
   return true;
 }
 
-can_filter exact_filter(std::uint32_t id) {
+can_filter message_filter(std::uint32_t id) {
   can_filter filter{};
   if ((id & CAN_EFF_FLAG) != 0U) {
     filter.can_id = id & CAN_SFF_MASK;
     filter.can_mask = CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_SFF_MASK;
     return filter;
   }
-  filter.can_id = (id & CAN_EFF_MASK) | CAN_EFF_FLAG;
-  filter.can_mask = CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_EFF_MASK;
+  const std::uint32_t sender = is_of_any_source(id) ? 0xFFU : 0U;
+  filter.can_id = (identity_of(id) & ~sender) | CAN_EFF_FLAG;
+  filter.can_mask = CAN_EFF_FLAG | CAN_RTR_FLAG | (identity_of(CAN_EFF_MASK) & ~sender);
   return filter;
 }
 

@@ -20,9 +20,10 @@ namespace graben {
 /// send or nobody but it may: an FD or error frame, an id or a length out of range.
 [[nodiscard]] bool to_socketcan(const CanFrame& frame, can_frame& out);
 
-/// Passes data frames with this id only: no remote frame, none of the other length of ids. With bit
-/// 31 the id has 11 bits, else 29.
-[[nodiscard]] can_filter exact_filter(std::uint32_t id);
+/// Passes data frames of this message only: no remote frame, none of the other length of ids. With
+/// bit 31 the id has 11 bits; else 29, of which PGN and source count and the priority does not, and
+/// source FE is any.
+[[nodiscard]] can_filter message_filter(std::uint32_t id);
 
 /// The classes of error frames that a port asks the kernel for: the state's changes, and what is
 /// only counted.

@@ -34,7 +34,7 @@ CanSocketConfig config_of(std::string interface, const std::vector<std::uint32_t
   config.interface = std::move(interface);
   config.filters.reserve(receive_ids.size());
   for (const std::uint32_t id : receive_ids) {
-    config.filters.push_back(exact_filter(id));
+    config.filters.push_back(message_filter(id));
   }
   return config;
 }

@@ -52,8 +52,8 @@ class SocketCanPort final : public CanPort {
   /// Makes the socket; another one than open_can_socket is for tests.
   using Opener = OpenedCanSocket (*)(const CanSocketConfig&);
 
-  /// Closed at first. Takes 29-bit data frames with these ids only, and every frame if there are
-  /// none. Allocates here and nowhere else.
+  /// Closed at first. Takes data frames of these messages only (message_filter), and every frame if
+  /// there are none. Allocates here and nowhere else.
   SocketCanPort(std::string interface, const std::vector<std::uint32_t>& receive_ids,
                 Opener opener = &open_can_socket);
   ~SocketCanPort();

@@ -87,7 +87,7 @@ def own_section(graben, folder, machines):
     said = call(graben, "dig", "--profile", str(profile), "--out", str(folder / "own"))
     assert "true" in said, said
     log = (folder / "own" / "dig.log").read_text(encoding="ascii")
-    for there, word in ((True, "0CF02AF0#"), (True, "0CF02DF3#"), (False, "0CFF2080#")):
+    for there, word in ((True, "0CF02AF0#"), (True, "08F02DF3#"), (False, "0CFF2080#")):
         assert (word in log) == there, f"{word} in the log: {not there}"
     for old, new, words in WRONG:
         assert old in SECTION, old

@@ -38,12 +38,13 @@ bool every_value_is(const dbc::Payload& payload, bool (*good)(RawState)) {
 
 template <class... Messages>
 bool values_are(dbc::MessageList<Messages...>, const CanFrame& frame, bool (*good)(RawState)) {
-  return ((frame.id == Messages::kId && every_value_is<Messages>(frame.data, good)) || ...);
+  return ((same_message(frame.id, Messages::kId) && every_value_is<Messages>(frame.data, good)) ||
+          ...);
 }
 
 bool has_form(const CanFrame& frame, const dbc::MessageInfo& info) {
-  return frame.id == info.id && frame.extended && !frame.remote && !frame.error && !frame.fd &&
-         frame.length == info.length;
+  return same_message(frame.id, info.id) && frame.extended && !frame.remote && !frame.error &&
+         !frame.fd && frame.length == info.length;
 }
 
 bool is_whole(const CanFrame& frame, const dbc::MessageInfo& info) {
@@ -62,7 +63,7 @@ bool wants_motion(const CanFrame& frame) {
 /// With an answer to the controller's challenge, which a station need not give.
 template <class Message>
 void answer(CanFrame& frame) {
-  if (frame.id == Message::kId) {
+  if (same_message(frame.id, Message::kId)) {
     dbc::insert(frame.data, Message::kEcho.start_bit, Message::kEcho.width, 0);
   }
 }
@@ -103,15 +104,16 @@ void BusEvidence<Kind>::note_operator(const CanFrame& frame, bool alone, TimeUs 
 
 template <class Kind>
 void BusEvidence<Kind>::note(const std::vector<CanFrame>& received, bool stale, TimeUs now) {
-  const auto of_operator = std::count_if(
-      received.begin(), received.end(),
-      [](const CanFrame& frame) { return frame.id == Kind::Dbc::OperatorCommand::kId; });
+  const auto of_operator =
+      std::count_if(received.begin(), received.end(), [](const CanFrame& frame) {
+        return same_message(frame.id, Kind::Dbc::OperatorCommand::kId);
+      });
   for (const CanFrame& frame : received) {
     for (unsigned i = 0; i < kInputMessages; ++i) {
       const dbc::MessageInfo& info = input_message<Kind>(i);
       const bool is_operator = info.id == Kind::Dbc::OperatorCommand::kId;
       if (!is_whole(frame, info)) {
-        run_.frames = is_operator && frame.id == info.id ? 0 : run_.frames;
+        run_.frames = is_operator && same_message(frame.id, info.id) ? 0 : run_.frames;
         continue;
       }
       if (is_operator) {

@@ -22,8 +22,6 @@ namespace {
 
 constexpr std::array<const char*, kAxisCount> kNames = {"boom", "arm", "bucket"};
 
-/// Kernel stamps of frames that came together may be this much out of order.
-constexpr double kBack_s = 0.002;
 /// So often, of its frames, an IMU may be in doubt, or early.
 constexpr double kMostDoubts = 0.05;
 /// A rest has no hole as long as this.
@@ -144,11 +142,8 @@ void Reader::take(const LoggedFrame& frame) {
     last_s_ = frame.time_s;
     any_ = true;
   }
-  if (frame.time_s < last_s_ - kBack_s) {
-    fail(frame.line, fmt::format("its clock goes back by {:.3f} s", last_s_ - frame.time_s));
-  }
-  last_s_ = std::max(last_s_, frame.time_s);
-  if (frame.extended && frame.id == dbc::excavator::MachineIdentity::kId) {
+  last_s_ = frame.time_s;
+  if (frame.extended && same_message(frame.id, dbc::excavator::MachineIdentity::kId)) {
     return identify(frame);
   }
   CanFrame can;
@@ -340,7 +335,9 @@ RestLog read_rests(const std::filesystem::path& file, const ImuProfile& imus) {
   RestLog log;
   log.name = file.filename().string();
   Reader reader(log.name, imus);
-  log.sha256 = read_candump(file, [&](const LoggedFrame& frame) { reader.take(frame); });
+  const LogRead read = read_candump(file, [&](const LoggedFrame& frame) { reader.take(frame); });
+  log.sha256 = read.sha256;
+  log.notes = read.notes();
   reader.assert_heard();
   log.profile_hash = reader.profile_hash();
   log.length_s = reader.length_s();

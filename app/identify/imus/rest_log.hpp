@@ -34,11 +34,12 @@ struct RestLog {
   std::uint32_t profile_hash = 0;  ///< That the machine said; 0: it said none.
   double length_s = 0.0;
   std::vector<Rest> rests;
+  std::vector<std::string> notes;  ///< LogRead's.
 };
 
 /// Reads a log, plain or gzip. Throws std::runtime_error that names file, line and reason: not
 /// candump, cut off, an IMU of `imus` that is not heard or is silent too long, one that says an
-/// error, a clock that goes back, two machines in one log, no rest.
+/// error, two machines in one log, no rest.
 [[nodiscard]] RestLog read_rests(const std::filesystem::path& file, const ImuProfile& imus);
 
 }  // namespace graben::identify

@@ -4,21 +4,27 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
-#include <charconv>
+#include <fstream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 
 #include "app/identify/lines.hpp"
+#include "app/identify/machine/candump_line.hpp"
+#include "app/identify/machine/other_logs.hpp"
 #include "app/machines/missing_file.hpp"
+#include "app/machines/plain_text.hpp"
+#include "can_dbc/generated/dozer_dbc.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "hal/can_frame.hpp"
 
 namespace graben::identify {
 namespace {
-
-/// How can-utils mark what is a report of the bus controller: CAN_ERR_FLAG.
-constexpr std::uint32_t kErrorFlag = 0x20000000U;
-constexpr std::size_t kExtendedDigits = 8;
 
 class Sha256 {
  public:
@@ -43,99 +49,212 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
 };
 
-std::string_view next_word(std::string_view& rest) {
-  const std::size_t from = std::min(rest.find_first_not_of(' '), rest.size());
-  rest.remove_prefix(from);
-  const std::size_t until = std::min(rest.find(' '), rest.size());
-  const std::string_view word = rest.substr(0, until);
-  rest.remove_prefix(until);
-  return word;
-}
-
-template <class Number>
-bool read(std::string_view text, Number& number, int base) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
-/// "(1700000000.123456)" as seconds.
-bool read_time(std::string_view text, double& time_s) {
-  if (text.size() < 4 || text.front() != '(' || text.back() != ')') {
-    return false;
-  }
-  text = text.substr(1, text.size() - 2);
-  const std::size_t point = text.find('.');
-  std::int64_t seconds = 0;
-  std::int64_t micros = 0;
-  if (point == std::string_view::npos || text.size() - point - 1 != 6 ||
-      !read(text.substr(0, point), seconds, 10) || !read(text.substr(point + 1), micros, 10) ||
-      seconds < 0 || micros < 0) {
-    return false;
-  }
-  time_s = static_cast<double>(seconds) + 1e-6 * static_cast<double>(micros);
-  return true;
-}
-
-enum class Kind { kData, kOther, kBroken };
-
-/// "0CFF2080#00112233": id and data.
-Kind read_frame(std::string_view text, LoggedFrame& frame) {
-  const std::size_t hash = text.find('#');
-  if (hash == std::string_view::npos || !read(text.substr(0, hash), frame.id, 16)) {
-    return Kind::kBroken;
-  }
-  frame.extended = hash == kExtendedDigits;
-  const std::string_view data = text.substr(hash + 1);
-  if ((frame.extended && (frame.id & kErrorFlag) != 0U) || (!data.empty() && data[0] == 'R') ||
-      (!data.empty() && data[0] == '#')) {
-    return Kind::kOther;
-  }
-  if (data.size() % 2 != 0 || data.size() > 2 * frame.data.size()) {
-    return Kind::kBroken;
-  }
-  frame.length = static_cast<std::uint8_t>(data.size() / 2);
-  for (std::size_t at = 0; at < frame.length; ++at) {
-    if (!read(data.substr(2 * at, 2), frame.data[at], 16)) {
-      return Kind::kBroken;
+/// The id that one of our DBCs has for the same PGN and source, if any has.
+std::uint32_t own_id(std::uint32_t id) {
+  static const std::unordered_map<std::uint32_t, std::uint32_t> known = [] {
+    std::unordered_map<std::uint32_t, std::uint32_t> ids;
+    for (const dbc::MessageInfo& message : dbc::excavator::kMessages) {
+      ids.emplace(identity_of(message.id), message.id);
     }
-  }
-  return Kind::kData;
+    for (const dbc::MessageInfo& message : dbc::dozer::kMessages) {
+      ids.emplace(identity_of(message.id), message.id);
+    }
+    return ids;
+  }();
+  const auto found = known.find(identity_of(id));
+  return found == known.end() ? id : found->second;
+}
+
+[[noreturn]] void refuse(const std::string& where, const std::string& line) {
+  throw std::runtime_error(
+      fmt::format("{}: \"{}\" is not a line of candump -L, \"(seconds) interface id#data\"", where,
+                  line.substr(0, 60)));
+}
+
+std::string plural(std::size_t count, const char* one, const char* more) {
+  return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
 }  // namespace
 
-std::string read_candump(const std::filesystem::path& file,
-                         const std::function<void(const LoggedFrame&)>& take, CutLine cut) {
+std::vector<std::string> LogRead::notes() const {
+  std::vector<std::string> notes;
+  const auto say = [&](const std::string& what) { notes.push_back(name + ": " + what); };
+  if (lost > 0) {
+    say(fmt::format("{} lost as it was recorded (DROPCOUNT)",
+                    plural(lost, "frame was", "frames were")));
+  }
+  if (broken > 0) {
+    say(fmt::format("{} of candump's, left out; the first is line {}",
+                    plural(broken, "line is none", "lines are none"), first_broken));
+  }
+  if (is_cut) {
+    say("its last line is cut, and left out");
+  }
+  constexpr std::size_t kNamed = 3;
+  for (std::size_t i = 0; i < std::min(breaks.size(), kNamed); ++i) {
+    const ClockBreak& at = breaks[i];
+    say(at.by_s > 0.0
+            ? fmt::format("a gap of {:.2f} s before line {}; its pieces are counted apart", at.by_s,
+                          at.line)
+            : fmt::format(
+                  "its clock goes back by {:.2f} s at line {}; its pieces are counted apart",
+                  -at.by_s, at.line));
+  }
+  if (breaks.size() > kNamed) {
+    say(fmt::format("{} gaps and steps of its clock in all", breaks.size()));
+  }
+  if (disordered > 0) {
+    say(fmt::format("{} a stamp before that of the frame before, and {} its stamp",
+                    plural(disordered, "frame had", "frames had"),
+                    disordered == 1 ? "has" : "have"));
+  }
+  if (garbled > 0) {
+    say(fmt::format("{} left out, whose stamp fits no other",
+                    plural(garbled, "frame is", "frames are")));
+  }
+  return notes;
+}
+
+namespace {
+
+/// Counts what comes, and hands frames on by the log's clock.
+class Reading {
+ public:
+  Reading(const std::filesystem::path& file, const std::function<void(const LoggedFrame&)>& take)
+      : count_([this, &take](const LoggedFrame& frame) {
+          ++read_.frames;
+          take(frame);
+        }),
+        clock_(count_) {
+    read_.name = file.string();
+  }
+  ~Reading() = default;
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+
+  void take(std::size_t number, const CandumpLine& line) {
+    whole_ += line.kind == LineKind::kLost ? 0 : 1;
+    read_.lost += line.lost;
+    read_.other += line.kind == LineKind::kOther ? 1 : 0;
+    if (line.kind == LineKind::kFrame) {
+      LoggedFrame frame{number, line.time_s, line.id, line.extended, line.length, line.data};
+      frame.id = line.extended ? own_id(line.id) : line.id;
+      clock_.judge(frame);
+    }
+  }
+
+  void take_broken(std::size_t number, const std::string& line, bool is_whole) {
+    if (first_broken_.empty()) {
+      first_broken_ = line;
+      read_.first_broken = number;
+    }
+    read_.broken += is_whole ? 1 : 0;
+    read_.is_cut = read_.is_cut || !is_whole;
+  }
+
+  LogRead end(std::string sha256) {
+    clock_.end();
+    if (read_.broken > whole_ || (read_.is_cut && whole_ == 0)) {
+      refuse(fmt::format("{}:{}", read_.name, read_.first_broken), first_broken_);
+    }
+    read_.sha256 = std::move(sha256);
+    read_.breaks = clock_.breaks();
+    read_.disordered = clock_.disordered();
+    read_.garbled = clock_.garbled();
+    return read_;
+  }
+
+ private:
+  LogRead read_;
+  LogClock::Take count_;
+  LogClock clock_;
+  std::string first_broken_;
+  std::size_t whole_ = 0;
+};
+
+/// The file's first bytes, unpacked or not; none where it can't be read, which is told later.
+std::string begin_of(const std::filesystem::path& file) {
+  constexpr std::size_t kBegin = 16;
+  std::string begin(kBegin, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+  return begin;
+}
+
+LogRead read_binary(const std::filesystem::path& file, Reading& reading) {
+  const std::string bytes = machines::file_text(file, machines::kWantedLog);
+  Sha256 digest;
+  digest.add(bytes);
+  const std::string wrong = read_blf(
+      bytes, [&](std::size_t number, const CandumpLine& line) { reading.take(number, line); });
+  if (!wrong.empty()) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), wrong));
+  }
+  return reading.end(digest.text());
+}
+
+}  // namespace
+
+LogRead read_candump(const std::filesystem::path& file,
+                     const std::function<void(const LoggedFrame&)>& take) {
+  Reading reading(file, take);
+  const std::string begin = begin_of(file);
+  if (const std::string what = foreign_log(begin); !what.empty()) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
+  }
+  if (is_blf(begin)) {
+    return read_binary(file, reading);
+  }
   Lines lines(file.string(), machines::kWantedLog);
+  std::optional<LogText> text;
   Sha256 digest;
   std::string line;
-  LoggedFrame frame;
   while (lines.next(line)) {
     digest.add(line);
     digest.add("\n");
     if (line.empty()) {
       continue;
     }
-    frame.line = lines.number();
-    std::string_view rest(line);
-    Kind kind = Kind::kBroken;
-    if (read_time(next_word(rest), frame.time_s)) {
-      next_word(rest);  // The interface: several may be in one log.
-      kind = read_frame(next_word(rest), frame);
+    if (!text) {
+      text.emplace(line);
     }
-    if (kind == Kind::kBroken && cut == CutLine::kPassedOver && !lines.is_whole()) {
-      break;
-    }
-    if (kind == Kind::kBroken) {
-      throw std::runtime_error(
-          fmt::format("{}: \"{}\" is not a line of candump -L, \"(seconds) interface id#data\"",
-                      lines.where(), line.substr(0, 60)));
-    }
-    if (kind == Kind::kData) {
-      take(frame);
+    const CandumpLine got = text->parse(line);
+    if (got.kind == LineKind::kBroken) {
+      reading.take_broken(lines.number(), line, lines.is_whole());
+    } else {
+      reading.take(lines.number(), got);
     }
   }
-  return digest.text();
+  return reading.end(digest.text());
+}
+
+bool is_other_log(const std::filesystem::path& file) {
+  if (is_blf(begin_of(file))) {
+    return true;
+  }
+  Lines lines(file.string(), machines::kWantedLog);
+  std::string line;
+  while (lines.next(line)) {
+    if (!line.empty()) {
+      return !LogText(line).is_candump();
+    }
+  }
+  return false;
+}
+
+std::string candump_text(const std::filesystem::path& file) {
+  std::string text;
+  static_cast<void>(read_candump(file, [&](const LoggedFrame& frame) {
+    text += fmt::format(frame.extended ? "({:.6f}) can0 {:08X}#" : "({:.6f}) can0 {:03X}#",
+                        frame.time_s, frame.id);
+    for (unsigned i = 0; i < frame.length; ++i) {
+      text += fmt::format("{:02X}", frame.data[i]);
+    }
+    text += '\n';
+  }));
+  return text;
 }
 
 }  // namespace graben::identify

@@ -120,12 +120,12 @@ std::string read_versions(const DbcVersions& of) {
   return fmt::format("this tool reads versions {} to {}", of.oldest, of.own);
 }
 
-void read_versioned(const std::filesystem::path& file,
-                    const std::function<void(const LoggedFrame&)>& take, CutLine cut) {
+LogRead read_versioned(const std::filesystem::path& file,
+                       const std::function<void(const LoggedFrame&)>& take) {
   Versions versions(file.string(), take);
-  static_cast<void>(read_candump(
-      file, [&](const LoggedFrame& frame) { versions.take(frame); }, cut));
+  LogRead read = read_candump(file, [&](const LoggedFrame& frame) { versions.take(frame); });
   versions.settle();
+  return read;
 }
 
 }  // namespace graben::identify

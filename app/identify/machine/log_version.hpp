@@ -35,7 +35,7 @@ inline constexpr DbcVersions kDozerVersions{dbc::dozer::kDbcVersion, 7, 8};
 /// (EcuIdentity, once a second); where it does not within two seconds, the log is taken for one of
 /// this version. Throws std::runtime_error with the versions where it says one that is not read,
 /// or one with another EcuStatus too late.
-void read_versioned(const std::filesystem::path& file,
-                    const std::function<void(const LoggedFrame&)>& take, CutLine cut);
+LogRead read_versioned(const std::filesystem::path& file,
+                       const std::function<void(const LoggedFrame&)>& take);
 
 }  // namespace graben::identify

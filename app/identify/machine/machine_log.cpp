@@ -339,10 +339,10 @@ double MachineLog::length_s() const {
 
 MachineLog read_machine_log(const std::filesystem::path& file, int pump_count) {
   LogCollector collector(file.filename().string());
-  const std::string sha256 =
-      read_candump(file, [&](const LoggedFrame& frame) { collector.take(frame); });
+  LogRead read = read_candump(file, [&](const LoggedFrame& frame) { collector.take(frame); });
   MachineLog log = collector.log(pump_count);
-  log.sha256 = sha256;
+  log.sha256 = read.sha256;
+  log.notes = read.notes();
   return log;
 }
 

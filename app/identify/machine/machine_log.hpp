@@ -54,9 +54,10 @@ struct MachineLog {
   std::string sha256;              ///< Of its bytes, hexadecimal.
   std::uint32_t profile_hash = 0;  ///< That the machine said; 0: it said none.
   std::vector<LogSegment> segments;
-  std::size_t frames = 0;   ///< Of our bus.
-  std::size_t refused = 0;  ///< With a wrong length or checksum.
-  std::size_t foreign = 0;  ///< Frames of other buses.
+  std::size_t frames = 0;          ///< Of our bus.
+  std::size_t refused = 0;         ///< With a wrong length or checksum.
+  std::size_t foreign = 0;         ///< Frames of other buses.
+  std::vector<std::string> notes;  ///< LogRead's.
 
   [[nodiscard]] double length_s() const;
 };
@@ -82,7 +83,7 @@ class LogCollector {
 
 /// Reads a log, plain or gzip; `pump_count` of the machine. Throws std::runtime_error that names
 /// file, line and reason: unreadable, cut off, not candump, no frame of an excavator, another DBC
-/// version, a dozer's bus, two machines on one bus, a clock that goes back, too many damaged
+/// version, a dozer's bus, two machines on one bus, too many damaged
 /// frames, a signal that is missing or often has no value, less than 5 s in one piece.
 [[nodiscard]] MachineLog read_machine_log(const std::filesystem::path& file, int pump_count);
 

@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "app/identify/machine/candump_reader.hpp"
 #include "app/machines/missing_file.hpp"
 
 namespace graben::scope {
@@ -56,6 +57,17 @@ int unpacked(const std::filesystem::path& name, int file) {
     fail(name, "is cut off or damaged (gzip)");
   }
   if (std::fflush(out.get()) != 0) {
+    fail(name, std::strerror(errno));
+  }
+  return fcntl(fileno(out.get()), F_DUPFD_CLOEXEC, 0);
+}
+
+/// A log of another tool as candump's lines, which the page reads, in a file without a name.
+int turned(const std::filesystem::path& name) {
+  const std::string text = identify::candump_text(name);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::tmpfile(), std::fclose);
+  if (!out || std::fwrite(text.data(), 1, text.size(), out.get()) != text.size() ||
+      std::fflush(out.get()) != 0) {
     fail(name, std::strerror(errno));
   }
   return fcntl(fileno(out.get()), F_DUPFD_CLOEXEC, 0);
@@ -106,10 +118,10 @@ LogFile open_log(const std::filesystem::path& name) {
          fmt::format("reads like TOML, as a profile or a task; wanted: {}", machines::kWantedLog)
              .c_str());
   }
-  if (!is_packed(file)) {
+  if (!is_packed(file) && !identify::is_other_log(name)) {
     return {file, static_cast<std::uint64_t>(status.st_size)};
   }
-  const int whole = unpacked(name, file);
+  const int whole = identify::is_other_log(name) ? turned(name) : unpacked(name, file);
   if (whole < 0 || fstat(whole, &status) != 0) {
     fail(name, std::strerror(errno));
   }

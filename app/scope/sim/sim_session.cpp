@@ -32,7 +32,7 @@ SimSession::SimSession(const SimOptions& options, FrameTap tap)
 }
 
 void SimSession::see(const CanFrame& frame) {
-  if (frame.id == Status::kId && frame.extended && frame.length == Status::kLength) {
+  if (same_message(frame.id, Status::kId) && frame.extended && frame.length == Status::kLength) {
     operator_.hear(static_cast<EcuMode>(Status::decode(frame.data).mode.value), frame.stamp_us);
   }
   tap_(frame);

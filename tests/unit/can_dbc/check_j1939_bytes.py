@@ -32,7 +32,7 @@ def acceleration(data, at):
 PRINTED = (
     (0x0CF029E2, "00007D00007D0005", {"Pitch": (slope, 0, 3), "Roll": (slope, 3, 3)}),
     (0x0CF02AE2, "007D007D007D0005", {"PitchRate": (rate, 0, 2), "RollRate": (rate, 2, 2), "YawRate": (rate, 4, 2)}),
-    (0x0CF02DE2, "007D007DD5800005",
+    (0x08F02DE2, "007D007DD5800005",
      {"Lateral": (acceleration, 0, 2), "Longitudinal": (acceleration, 2, 2), "Vertical": (acceleration, 4, 2)}),
 )
 EXAMPLE = {"Pitch": 0.0, "Roll": 0.0, "PitchRate": 0.0, "RollRate": 0.0, "YawRate": 0.0, "Lateral": 0.0,

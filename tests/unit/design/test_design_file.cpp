@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "app/design/design_source.hpp"
 #include "app/machines/simulated/simulated_dozer.hpp"
 #include "firmware/dozer/grade_profile.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -42,7 +43,7 @@ TEST(what_is_malformed_is_refused_with_its_line) {
   const auto refusal = [](const std::string& text) {
     return test::refusal_of([&] { read(text); });
   };
-  assert_true(refusal("# two\n0 0\n, 5; -0.1\n").empty());
+  assert_true(refusal("# two\n0 0\n 5; -0.1\n").empty());
   assert_true(has(refusal("0 0\n5 0\n5 -0.1\n"), "line 3: x = 5 m; allowed: more than the line"));
   assert_true(has(refusal("0 0\n1001 0\n"), "line 2: x = 1001 m; allowed: -1000 .. 1000 m"));
   assert_true(has(refusal("0 0\n1 101\n"), "allowed: -100 .. 100 m"));
@@ -56,6 +57,69 @@ TEST(what_is_malformed_is_refused_with_its_line) {
   assert_true(has(refusal("0 0 0.31\n5 0 0\n"), "line 1: a slope across of 0.31; allowed: -0.3"));
   assert_true(has(refusal("0 0\n"), "1 lines over 0 m"));
   assert_true(has(refusal("-1000 0\n1000 0\n"), "over 2000 m; allowed"));
+}
+
+/// A cell without a number is one: what stands behind it is not moved up.
+TEST(an_empty_cell_is_a_cell) {
+  const test::WrittenFile file("design.txt",
+                               "0,-0.2,,0.02\r\n10,-0.2,,0.02\r\n20,-0.2,,0.02\r\n,,,\r\n");
+  const machines::DesignLine line = machines::read_design(file.path());
+  assert_int_equal(line.corners.size(), 3);
+  assert_near(line.curvature[1], 0.02, 0.0);
+  assert_near(line.cross[1], 0.0, 0.0);
+  const auto refusal = [](const std::string& text) {
+    return test::refusal_of([&] { read(text); });
+  };
+  assert_true(has(refusal("0 0\n, 5\n"), "line 2: an empty cell"));
+  assert_true(has(refusal("0,5 -0,2\n9,5 -0,2\n"), "two words between commas"));
+  assert_true(refusal("x;height\n0;0\n+5;-0.1\n").empty());
+  assert_true(has(refusal("height x\n0 0\n5 0\n"),
+                  "line 1: column 1: 'height'; allowed: numbers, or as names x"));
+}
+
+design::DesignSource named(const std::filesystem::path& file, const std::string& columns = "") {
+  design::DesignSource source;
+  source.file = file;
+  source.columns = columns;
+  return source;
+}
+
+/// By what it contains; the ending decides only between numbers and numbers, in whatever letters.
+TEST(a_file_is_what_it_contains) {
+  const auto kind = [](const std::string& name, const std::string& text,
+                       const std::string& columns = "") {
+    const test::WrittenFile file(name, text);
+    return design::kind_of(named(file.path(), columns));
+  };
+  for (const char* const name : {"a.XML", "a.xml", "a.txt", "a", "a.csv"}) {
+    assert_true(kind(name, "\xEF\xBB\xBF\r\n<?xml?>") == design::DesignKind::kLandXml);
+  }
+  assert_true(kind("a.XYZ", "0 0 0\n") == design::DesignKind::kPoints);
+  assert_true(kind("a.Csv", "0 0 0\n") == design::DesignKind::kPoints);
+  assert_true(kind("a.txt", "1 0 0 0\n", "PNEZ") == design::DesignKind::kPoints);
+  assert_true(kind("a.TXT", "0 0\n") == design::DesignKind::kLine);
+  const std::string refused = test::refusal_of([&] { static_cast<void>(kind("a.dat", "0 0\n")); });
+  assert_true(has(refused, "a.dat: is no LandXML, and its ending '.dat' does not say"));
+}
+
+TEST(an_alignment_may_be_in_another_file) {
+  const std::string units = "<LandXML><Units><Metric linearUnit=\"meter\"/></Units>";
+  const test::WrittenFile points("a.csv", "0,-9,1\n0,9,1\n40,-9,1\n40,9,1\n");
+  const test::WrittenFile way("way.xml",
+                              units +
+                                  "<Alignments><Alignment name=\"CL\"><CoordGeom><Line><Start>0 "
+                                  "5</Start><End>0 35</End></Line>"
+                                  "</CoordGeom></Alignment></Alignments></LandXML>");
+  design::DesignSource source = named(points.path());
+  source.alignment_file = way.path();
+  source.datum_m = 1.0;
+  const machines::DesignLine line = design::line_of(source, {3.0, 0.02, false});
+  assert_near(line.corners.back().x_m - line.corners.front().x_m, 30.0, 1e-6);
+  source.alignment = "EL";
+  const std::string refused = test::refusal_of([&] {
+    static_cast<void>(design::line_of(source, {3.0, 0.02, false}));
+  });
+  assert_true(has(refused, "way.xml") && has(refused, "alignment 'EL' is there 0 times"));
 }
 
 TEST(what_is_written_is_read_again) {

@@ -62,13 +62,14 @@ TEST(one_surface_of_several_is_chosen_by_its_name) {
       kMetres, surface("ground", kPoints, "<F>1 2 7</F>\n") + surface("design", kPoints, kFaces));
   assert_int_equal(read(two, "design").face.size(), 2);
   assert_int_equal(read(two, "ground").face.size(), 1);
-  assert_true(has(refusal(two), "allowed: one of 'ground', 'design', by --surface"));
+  assert_true(has(refusal(two), "allowed: one of #1 'ground', #2 'design', by --surface"));
   assert_true(has(refusal(two, "other"), "surface 'other' is there 0 times"));
 }
 
 TEST(what_is_malformed_is_refused_with_its_element) {
   const auto points = [](const std::string& more) {
-    return refusal(file_of(kMetres, surface("a", kPoints + more, kFaces)));
+    return refusal(
+        file_of(kMetres, surface("a", kPoints + more, kFaces + std::string("<F>1 2 9</F>\n"))));
   };
   const auto faces = [](const std::string& more) {
     return refusal(file_of(kMetres, surface("a", kPoints, kFaces + more)));
@@ -79,7 +80,7 @@ TEST(what_is_malformed_is_refused_with_its_element) {
   assert_true(has(points("<P id=\"9\">1.0 2.0 nan</P>"), "'nan' as its height"));
   assert_true(has(points("<P id=\"9\">1.0 2.0 20000</P>"), "allowed: -10000 .. 10000 m"));
   assert_true(has(points("<P id=\"2\">1.0 2.0 3.0</P>"), "its id is there for the second time"));
-  assert_true(has(points("<P>1.0 2.0 3.0</P>"), "allowed: a whole number as its id"));
+  assert_true(has(points("<P>1.0 2.0 3.0</P>"), "point '9' is not there; allowed: the ids of <P>"));
   assert_true(has(faces("<F>1 2 99</F>"), "line 17, <F>: point '99' is not there"));
   assert_true(has(faces("<F>1 2 7 8</F>"), "<F>: more than 3 points; allowed: 3"));
   assert_true(has(refusal("<LandXML><Units>"), "can't be read as XML"));
@@ -89,4 +90,69 @@ TEST(what_is_malformed_is_refused_with_its_element) {
   assert_true(has(
       refusal(file_of(kMetres, "<Surface name=\"a\"><Definition surfType=\"grid\"/></Surface>")),
       "surfType=\"grid\"; allowed: TIN"));
+}
+
+/// Exporters put each surface into a group of its own, ground and design.
+TEST(all_groups_are_looked_through) {
+  const std::string two =
+      "<LandXML>" + std::string(kMetres) + "<Surfaces name=\"existing\">" +
+      surface("EG", kPoints, "<F>1 2 7</F>\n") + "</Surfaces>\n<Surfaces name=\"design\">" +
+      surface("FG\" state=\"proposed", kPoints, kFaces) + "</Surfaces></LandXML>";
+  assert_true(has(refusal(two), "allowed: one of #1 'EG', #2 'FG' (proposed), by --surface"));
+  assert_int_equal(read(two, "EG").face.size(), 1);
+  assert_int_equal(read(two, "FG").face.size(), 2);
+  assert_int_equal(read(two, "#2").face.size(), 2);
+  assert_int_equal(read(two, "state=proposed").face.size(), 2);
+}
+
+TEST(names_that_say_nothing_take_a_number) {
+  const std::string twice =
+      file_of(kMetres, surface("FG", kPoints, "<F>1 2 7</F>\n") + surface("FG", kPoints, kFaces));
+  assert_true(has(refusal(twice, "FG"), "surface 'FG' is there 2 times; allowed: one of #1 'FG'"));
+  assert_int_equal(read(twice, "#2").face.size(), 2);
+  assert_true(has(refusal(twice, "#3"), "is there 0 times"));
+  assert_int_equal(read(file_of(kMetres, surface("", kPoints, kFaces))).face.size(), 2);
+  const std::string unnamed =
+      file_of(kMetres, surface("", kPoints, "<F>1 2 7</F>\n") + surface("FG", kPoints, kFaces));
+  assert_int_equal(read(unnamed, "#1").face.size(), 1);
+  assert_true(has(refusal(unnamed), "#1 ''"));
+}
+
+TEST(what_no_face_uses_is_not_judged) {
+  const std::string more =
+      "<P id=\"99\">0 0 -99999</P>\n<P id=\"98\">0 0</P>\n<P id=\"97\">0 0 0</P>\n<P>0 0 0</P>\n";
+  const design::Surface got = read(file_of(kMetres, surface("a", kPoints + more, kFaces)));
+  assert_int_equal(got.point_m.size(), 4);
+  assert_near(got.point_m[got.face[1][1]].z(), 4.0, 0.0);
+  // The same place twice is one point.
+  assert_int_equal(
+      read(file_of(kMetres,
+                   surface("a", kPoints + std::string("<P id=\"2\">200.0 110.0 2</P>"), kFaces)))
+          .point_m.size(),
+      4);
+}
+
+TEST(a_prefix_is_read_and_anothers_element_is_not) {
+  const std::string text =
+      "\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<lx:LandXML xmlns:lx=\"http://www.landxml.org/schema/"
+      "LandXML-1.2\" xmlns:v=\"http://vendor.example/more\">\n<lx:Units><lx:Metric "
+      "linearUnit=\"meter\"/></lx:Units><lx:Surfaces><v:Surface name=\"not\"/><lx:Surface "
+      "name=\"FG\"><lx:Definition surfType=\"TIN\"><lx:Pnts><lx:P id=\"1\">0 0 1</lx:P><lx:P "
+      "id=\"2\">0 9 1</lx:P><lx:P id=\"3\">9 9 1</lx:P></lx:Pnts><lx:Faces><lx:F>1 2 3</lx:F>"
+      "</lx:Faces></lx:Definition></lx:Surface></lx:Surfaces></lx:LandXML>\n";
+  assert_int_equal(read(text).face.size(), 1);
+}
+
+TEST(mirrored_axes_are_refused) {
+  const auto with = [](const std::string& system) {
+    return refusal(
+        file_of("<CoordinateSystem " + system + "/>" + kMetres, surface("a", kPoints, kFaces)));
+  };
+  assert_true(has(with("ogcWktCode='PROJCS[&quot;Lo29&quot;,AXIS[&quot;X&quot;,SOUTH],"
+                       "AXIS[&quot;Y&quot;,WEST]]'"),
+                  "<CoordinateSystem>: its axes count to the south or west"));
+  assert_true(has(with("epsgCode=\"2053\""), "mirrors left and right"));
+  assert_true(with("epsgCode=\"25832\" ogcWktCode='PROJCS[&quot;Western&quot;,AXIS[&quot;N&quot;,"
+                   "NORTH]]'")
+                  .empty());
 }

@@ -87,6 +87,51 @@ TEST(what_it_cant_be_is_refused_with_its_element) {
   assert_true(has(refusal(file_of("")), "has no element"));
 }
 
+/// Cut first: what lies beyond the stations may be what it likes.
+TEST(only_what_the_stations_use_is_judged) {
+  const std::string spiral = "<Spiral length=\"20\" rot=\"ccw\"><Start>0 10</Start></Spiral>\n";
+  const std::string bent = "<Line><Start>0 10</Start><End>5 20</End></Line>\n";
+  assert_near(read(file_of(kLine + spiral + kNorth), {"way", {101.0, 109.0}}).length_m(), 8.0,
+              1e-9);
+  assert_near(read(file_of(kLine + bent), {"way", {101.0, 110.0}}).length_m(), 9.0, 1e-9);
+  assert_near(read(file_of(kLine + bent), {"way", {110.0, 120.0}}).length_m(), 10.0, 1e-9);
+  assert_true(
+      has(refusal(file_of(kLine + spiral), {"way", {101.0, 111.0}}), "<Spiral>: allowed in"));
+  // Behind an element without a length no station is known.
+  const std::string chain = "<Chain/>\n";
+  assert_near(read(file_of(kLine + chain + kNorth), {"way", {101.0, 109.0}}).length_m(), 8.0, 1e-9);
+  assert_true(has(refusal(file_of(kLine + chain + kNorth), {"way", {111.0, 112.0}}), "<Chain>"));
+}
+
+TEST(stations_that_are_counted_anew_are_refused) {
+  const std::string equation =
+      "</CoordGeom><StaEquation staAhead=\"500\" staBack=\"105\"/>\n<CoordGeom>";
+  const std::string text = file_of(kLine + equation);
+  assert_true(
+      has(refusal(text, {"way", {101.0, 109.0}}), "<StaEquation>: its stations are counted anew"));
+  assert_near(read(text).length_m(), 10.0, 1e-9);
+  std::string words = file_of(kLine);
+  words.replace(words.find("=\"100\""), 6, "=\"1+00\"");
+  assert_true(has(refusal(words, {"way", {101.0, 109.0}}), "staStart=\"1+00\"; allowed: a number"));
+}
+
+/// A file whose axes or turns are mirrored has arcs that go round the other way than they say.
+TEST(points_and_numbers_beside_them_are_the_same) {
+  const auto curve = [](const std::string& more) {
+    return file_of("<Curve " + more +
+                   "><Start>0 0</Start><Center>20 0</Center><End>20 20</End></Curve>\n");
+  };
+  assert_near(read(curve("rot=\"ccw\" length=\"31.416\" radius=\"20.00\"")).length_m(), 10.0 * kPi,
+              1e-6);
+  assert_true(has(refusal(curve("rot=\"cw\" length=\"31.416\"")),
+                  "<Curve>: length=\"31.416\", by its points and rot 94.248 m"));
+  assert_true(has(refusal(curve("rot=\"ccw\" radius=\"25\"")),
+                  "radius=\"25\", by its points and rot 20.000 m"));
+  assert_true(
+      has(refusal(file_of("<Line length=\"12\"><Start>0 0</Start><End>0 10</End></Line>\n")),
+          "length=\"12\", by its points 10.000 m"));
+}
+
 TEST(corners_are_rounded_by_arcs) {
   const std::vector<double> corner = {0.0, 0.0, 30.0, 0.0, 30.0, 30.0};
   const design::PlanTrack track = design::rounded_track(corner, 20.0);

@@ -71,3 +71,78 @@ TEST(what_is_malformed_is_refused_with_its_line) {
   assert_true(has(refusal("0 0 0\n1 0 0\n0 1 0\n0 0 1\n"), "allowed: one height a place"));
   assert_true(has(refusal("0 0 0\n1e6 0 0\n0 1 0\n"), "reaches over 1000000 m"));
 }
+
+design::Surface read_as(const std::string& text, const std::string& columns,
+                        const std::string& units = "") {
+  const test::WrittenFile file("points.txt", text);
+  return design::read_points(file.path(), {columns, design::metres_of_unit(units)});
+}
+
+Eigen::Vector3d last_of(const design::Surface& surface) { return surface.point_m.back(); }
+
+const Eigen::Vector3d kFar(1040.0, 2020.0, 50.8);
+
+/// What spreadsheets and instruments put round numbers.
+TEST(marks_pluses_ends_and_blank_rows_are_no_numbers) {
+  for (const char* const text :
+       {"\xEF\xBB\xBF"
+        "1000,2000,50\n1040,2000,50.8\n1040,2020,50.8\n",
+        "+1000.0 +2000.0 +50\r\n+1040.0 2000 50.8\r\n1040 2020 50.8\r\n\r\n",
+        "\"1000\",\"2000\",\"50\"\n1040,2000,50.8,,\n1040,2020,50.8\n,,\n,,,\n",
+        "1000; 2000; 50\n1040;2000;50.8\n1040;2020;50.8",
+        "1000\t2000\t50\n1040\t2000\t50.8\n1040\t2020\t50.8\t\n"}) {
+    assert_near((last_of(read(text)) - kFar).norm(), 0.0, 1e-4);
+  }
+}
+
+TEST(columns_and_units_as_told) {
+  const char* const pnezd =
+      "1,2000,1000,50,GRD\nTP-2,2000,1040,50.8,\"edge, of slab\"\n3,2020,1040,50.8\n";
+  assert_near((last_of(read_as(pnezd, "PNEZD")) - kFar).norm(), 0.0, 1e-4);
+  assert_near(
+      (last_of(read_as("2000 1000 50 a b\n2000 1040 50.8\n2020 1040 50.8 c\n", "nezd")) - kFar)
+          .norm(),
+      0.0, 1e-4);
+  assert_near(last_of(read_as(pnezd, "PNEZD", "ft")).x(), 1040.0 * 0.3048, 1e-4);
+  assert_near(last_of(read_as(pnezd, "PNEZD", "us-ft")).y(), 2020.0 * 1200.0 / 3937.0, 1e-4);
+  assert_true(has(refusal(pnezd), "more columns or another order by --columns, as PNEZD"));
+  const auto refused = [](const char* columns, const char* units) {
+    return test::refusal_of([&] { static_cast<void>(read_as("1 2 3\n", columns, units)); });
+  };
+  assert_true(has(refused("PNQ", ""), "--columns PNQ: 'Q'; allowed: P, N, E, X, Y, Z, D"));
+  assert_true(has(refused("PNE", ""), "no column for z"));
+  assert_true(has(refused("XYNZ", ""), "two columns for y"));
+  assert_true(has(refused("", "yd"), "--units yd; allowed: m, ft, us-ft"));
+  assert_true(has(test::refusal_of([&] { static_cast<void>(read_as("1,2\n", "PNEZD")); }),
+                  "line 1: column 3: an empty cell"));
+}
+
+TEST(a_header_says_the_columns) {
+  const char* const rows = "1,2000,1000,50,GRD\n2,2000,1040,50.8\n3,2020,1040,50.8\n";
+  const auto with = [&](const std::string& header) { return header + "\n" + rows; };
+  assert_near(
+      (last_of(read(with("Point,Northing (m),Easting (m),Elevation (m),Description"))) - kFar)
+          .norm(),
+      0.0, 1e-4);
+  assert_near((last_of(read_as(with("Nr;a;b;c"), "PNEZD")) - kFar).norm(), 0.0, 1e-4);
+  assert_true(has(refusal(with("Point,Northing,Easting,Code")), "line 1: no column for z"));
+  assert_true(
+      has(refusal(with("P,N (ft),E (ft),Z (ft)")), "line 1: 'N (ft)' against a unit of 1 m"));
+}
+
+TEST(what_only_looks_like_a_number_is_named) {
+  assert_true(has(refusal("1000,5;2000,5;50,1\n"), "line 1: '1000,5' has a decimal comma"));
+  assert_true(has(refusal("1000,5 2000,5 50,1\n"), "two words between commas"));
+  assert_true(has(refusal("1 2 \xE2\x88\x92"
+                          "3\n"),
+                  "(U+2212), a typographic minus"));
+  assert_true(has(refusal("1 2 \xE2\x80\x9C"
+                          "3\xE2\x80\x9D\n"),
+                  "(U+201C), a typographic quote"));
+  assert_true(has(refusal("1 2 3\xB0\n"), "the byte 0xB0, as Latin-1 has it; allowed: UTF-8"));
+  assert_true(has(refusal(std::string("\xFF\xFE"
+                                      "1\0 \0",
+                                      6)),
+                  "is UTF-16; allowed: UTF-8"));
+  assert_true(has(refusal("1,,3\n"), "line 1: an empty cell; allowed: x, y and z"));
+}

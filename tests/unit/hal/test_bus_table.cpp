@@ -171,6 +171,44 @@ TEST(a_condition_that_fails_says_disabled, Bus bus) {
   assert_false(bus.inputs().valve_enabled.value);
 }
 
+TEST(priority_is_the_senders, Bus bus) {
+  CanFrame frame;
+  frame.id = kState ^ 0x0C000000U;
+  frame.length = 8;
+  frame.data[5] = 1;
+  bus.receiver.accept(frame, bus.now);
+  bus.state_of_a_period(false);
+  assert_int_equal(bus.receiver.foreign(), 0);
+  assert_int_equal(bus.receiver.table().surplus, 1);
+  // What only we send is another controller's at any priority.
+  frame.id = kLevers ^ 0x10000000U;
+  bus.receiver.accept(frame, bus.now);
+  assert_true(bus.receiver.message_faults(bus.now).has(Fault::kSecondController));
+}
+
+TEST(source_fe_is_any_sender_unless_one_is_named) {
+  BusTable made = table();
+  made.rule[0].id = (kAngles & ~0xFFU) | 0xFEU;
+  ExcavatorReceiver receiver{with_table({}, &made)};
+  CanFrame frame;
+  frame.id = (kAngles & ~0xFFU) | 0x21U;
+  frame.length = 8;
+  put_raw({0, 16, false, false}, 25000, frame.data);
+  receiver.accept(frame, kNow);
+  assert_true(receiver.inputs().joint_rad[0].validity == Validity::kValid);
+  assert_int_equal(receiver.foreign(), 0);
+  // Another PGN stays foreign; and the state of a named sender, of the same PGN, is not taken for
+  // it.
+  frame.id ^= 0x100U;
+  receiver.accept(frame, kNow + kPeriod);
+  assert_int_equal(receiver.foreign(), 1);
+  made.rule[1].id = (kAngles & ~0xFFU) | 0x33U;
+  ExcavatorReceiver both{with_table({}, &made)};
+  frame.id = made.rule[1].id;
+  both.accept(frame, kNow);
+  assert_true(both.inputs().joint_rad[0].validity == Validity::kNotReceived);
+}
+
 TEST(the_machines_own_frames_of_ours_are_foreign, Bus bus) {
   const CanFrame speed{dbc::common::EEC1::kId,      true, false, false, false, 8,
                        dbc::common::EEC1{}.encode()};

@@ -10,12 +10,13 @@ namespace bus = dbc::j1939;
 constexpr double kDegree_rad = kPi / 180.0;
 constexpr TimeUs kNow = 5 * kSecondUs;
 constexpr TimeUs kPeriod = 10 * kMillisecondUs;
-/// Honeywell TARS-LCASS user manual, 32332897 issue B: examples of 7.2, 7.4 and 7.6, from 0xE2.
+/// Honeywell TARS-LCASS user manual, 32332897 issue B: examples of 7.2, 7.4 and 7.6, from 0xE2; the
+/// accelerations at priority 2, as two makers send them.
 constexpr std::uint32_t kSlopeId = 0x0CF029E2;
 constexpr dbc::Payload kSlope{0x00, 0x00, 0x7D, 0x00, 0x00, 0x7D, 0x00, 0x05};
 constexpr std::uint32_t kRatesId = 0x0CF02AE2;
 constexpr dbc::Payload kRates{0x00, 0x7D, 0x00, 0x7D, 0x00, 0x7D, 0x00, 0x05};
-constexpr std::uint32_t kForcesId = 0x0CF02DE2;
+constexpr std::uint32_t kForcesId = 0x08F02DE2;
 constexpr dbc::Payload kForces{0x00, 0x7D, 0x00, 0x7D, 0xD5, 0x80, 0x00, 0x05};
 
 CanFrame frame(std::uint32_t id, const dbc::Payload& data) {
@@ -165,7 +166,7 @@ TEST(others_stay_foreign, Arm arm) {
 
 TEST(filters_let_them_through) {
   const auto ids = imu_ids({0xE1, 0, 0xE3, 0});
-  const std::array<std::uint32_t, 8> expected = {0x0CF02AE1, 0x0CF02DE1, 0, 0,
-                                                 0x0CF02AE3, 0x0CF02DE3, 0, 0};
+  const std::array<std::uint32_t, 8> expected = {0x0CF02AE1, 0x08F02DE1, 0, 0,
+                                                 0x0CF02AE3, 0x08F02DE3, 0, 0};
   assert_true(ids == expected);
 }

@@ -151,6 +151,19 @@ TEST_FOR_EACH(error_frame_is_nobodys, Bus, ExcavatorBus, DozerBus) {
   assert_int_equal(receiver.link(Stroke::kId).wrong_kind, 0);
 }
 
+// PGN and source are what a message is known by: the next frame of a sender may have any priority.
+TEST_FOR_EACH(priority_is_the_senders, Bus, ExcavatorBus, DozerBus) {
+  using Stroke = typename Bus::Stroke;
+  typename Bus::Receiver receiver;
+  const TimeUs now = synchronise<Stroke>(receiver);
+  CanFrame frame = frame_of(filled<Stroke>(2000), 3);
+  frame.id ^= 0x18000000U;
+  receiver.accept(frame, now);
+  assert_int_equal(receiver.foreign(), 0);
+  assert_int_equal(receiver.link(Stroke::kId).accepted, 2);
+  assert_int_equal(rejected(receiver.total()), 0);
+}
+
 TEST_FOR_EACH(foreign_ids_are_counted_apart, Bus, ExcavatorBus, DozerBus) {
   using Stroke = typename Bus::Stroke;
   typename Bus::Receiver receiver;
@@ -158,9 +171,9 @@ TEST_FOR_EACH(foreign_ids_are_counted_apart, Bus, ExcavatorBus, DozerBus) {
   const Seen before = seen_by(receiver);
   const CanFrame good = frame_of(filled<Stroke>(2000), 3);
   std::uint32_t count = 0;
-  // Another source address, another priority, another page.
+  // Another source address, another PGN, another page.
   for (const std::uint32_t id :
-       {Stroke::kId + 1, Stroke::kId ^ 0x10000000U, Stroke::kId ^ 0x01000000U}) {
+       {Stroke::kId + 1, Stroke::kId ^ 0x00008000U, Stroke::kId ^ 0x01000000U}) {
     CanFrame frame = good;
     frame.id = id;
     receiver.accept(frame, now);

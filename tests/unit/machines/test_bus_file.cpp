@@ -265,43 +265,6 @@ TEST(a_swash_is_of_both_pumps) {
   assert_true(machines::load_bus(second.path()).capabilities.swash_command);
 }
 
-std::string dbc_refusal(const std::string& text) {
-  const WrittenFile file("bus.dbc", text);
-  return refusal_of([&] { static_cast<void>(machines::read_dbc(file.path())); });
-}
-
-TEST(a_dbc_is_read_with_care) {
-  const std::string message = "BO_ 2147483749 Angle: 8 Other\n";
-  const std::string begin = " SG_ Boom : 0|16@1+ ";
-  const std::string signal = begin + "(0.1,0) [0|1] \"\" Other\n";
-  const WrittenFile crlf("bus.dbc",
-                         "BO_ 2147483749 Angle: 8 Other\r\n" + begin +
-                             "(0.1,0) [0|1] \"\" Other\r\nSIG_VALTYPE_ 2147483749 Boom : 1;\r\n");
-  const auto read = machines::read_dbc(crlf.path());
-  assert_int_equal(read.size(), 1);
-  assert_int_equal(read[0].id, 101);
-  assert_false(read[0].signal[0].supported);
-  const auto assert_refused = [](const std::string& text, const char* why) {
-    const std::string error = dbc_refusal(text);
-    if (!has(error, why)) {
-      fail_msg("no \"%s\" in: %s", why, error.c_str());
-    }
-  };
-  assert_refused(message + signal + signal, ":3: a second signal of this name");
-  assert_refused(message + message, ":2: a second message of this name");
-  assert_refused(message + "BO_ 2147483749 Other: 8 Other\n",
-                 ":2: its id is that of message Angle");
-  assert_refused("BO_ 2048 Angle: 8 Other\n", "allowed: at most 0x7FF");
-  assert_refused("BO_ 3758096384 Angle: 8 Other\n", "allowed: at most 0x1FFFFFFF");
-  assert_refused(message + begin + "(0.1x,0) [0|1] \"\" Other\n", "'0.1x' is no number");
-  assert_refused(message + begin + "(nan,0) [0|1] \"\" Other\n", "'nan' is no number");
-  assert_refused(message + begin + "(0,0) [0|1] \"\" Other\n", "scale 0");
-  assert_refused(message + begin + "(1,0) [0|1] \"" + std::string(80000, 'A') + "\" Other\n",
-                 "allowed: at most 4096");
-  const std::string folder = refusal_of([] { static_cast<void>(machines::read_dbc(".")); });
-  assert_true(has(folder, "is a folder"));
-}
-
 /// Longer than a matcher by recursion bears.
 TEST(a_key_of_any_length_is_refused) {
   assert_says(kHead + kMessage + std::string(80000, 'A') + " = 1\n" + kSignal,

@@ -114,19 +114,45 @@ bool passes(const can_filter& filter, canid_t id) {
   return (id & filter.can_mask) == (filter.can_id & filter.can_mask);
 }
 
-TEST(a_filter_passes_its_id_in_its_form_only) {
+/// Of a 29-bit id: page, PGN and source address.
+constexpr unsigned kIdentityBits = 26;
+
+TEST(a_filter_passes_its_message_in_its_form_only) {
   for (const std::uint32_t id : {0x18FF5027U, 0U, 0x1FFFFFFFU, 0x7FFU}) {
-    const can_filter filter = exact_filter(id);
+    const can_filter filter = message_filter(id);
     assert_true(passes(filter, id | CAN_EFF_FLAG));
     assert_false(passes(filter, id));
     assert_false(passes(filter, id | CAN_EFF_FLAG | CAN_RTR_FLAG));
     for (unsigned bit = 0; bit < CAN_EFF_ID_BITS; ++bit) {
-      assert_false(passes(filter, (id ^ (1U << bit)) | CAN_EFF_FLAG));
+      // The three highest bits are the priority, which is the sender's.
+      assert_int_equal(passes(filter, (id ^ (1U << bit)) | CAN_EFF_FLAG), bit >= kIdentityBits);
     }
     // Neither the inverted sense nor the class of error frames slips in with a bad id.
-    assert_int_equal(exact_filter(id | CAN_INV_FILTER | CAN_ERR_FLAG).can_id, filter.can_id);
+    assert_int_equal(message_filter(id | CAN_INV_FILTER | CAN_ERR_FLAG).can_id, filter.can_id);
     assert_int_equal(filter.can_mask & CAN_ERR_FLAG, 0);
   }
+}
+
+TEST(accelerations_of_two_makers_pass_at_their_priority) {
+  const can_filter filter = message_filter(0x0CF02DE2);
+  assert_true(passes(filter, 0x08F02DE2U | CAN_EFF_FLAG));
+  assert_false(passes(filter, 0x08F02DE3U | CAN_EFF_FLAG));
+}
+
+TEST(source_fe_passes_any_sender) {
+  const can_filter filter = message_filter(0x0CF004FE);
+  for (const std::uint32_t id : {0x0CF00400U, 0x18F00401U, 0x0CF004FEU}) {
+    assert_true(passes(filter, id | CAN_EFF_FLAG));
+    assert_false(passes(filter, id));
+  }
+  assert_false(passes(filter, 0x0CF00500U | CAN_EFF_FLAG));
+}
+
+TEST(eleven_bits_have_no_priority) {
+  const can_filter filter = message_filter(0x80000000U | 0x1FEU);
+  assert_true(passes(filter, 0x1FEU));
+  assert_false(passes(filter, 0x100U));
+  assert_false(passes(filter, 0x5FEU));
 }
 
 constexpr TimeUs kWallUs = 1'700'000'000'000'000;

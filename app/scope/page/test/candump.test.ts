@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {CandumpParser} from '../src/model/candump';
 import type {FrameBlock} from '../src/model/frame_block';
+import cases from './candump_cases.json';
 import {bytes_of, hex, line, random} from './make';
 
 interface Row {
@@ -40,7 +41,8 @@ test('a frame of each kind', () => {
     '(1700000000.500000) can0 18FF2080#0011223344556677',
   ].join('\n'));
   assert.deepEqual(block.count,
-    {lines: 10, malformed: 0, first_malformed: null, backwards: 0, unheard: 2});
+    {lines: 10, malformed: 0, first_malformed: null, backwards: 0, unheard: 2, lost: 0, breaks: 1,
+      first_break: {line: 2, by_s: 1700000000.123456 - 1699999999}});
   const known = (time_s: number): Row[] => rows.filter((row) => row.time_s === time_s);
   assert.deepEqual(known(1699999999), [{key: 0x98ff2080, length: 8, time_s: 1699999999,
     bytes: [0, 17, 34, 51, 68, 85, 102, 119]}]);
@@ -76,7 +78,7 @@ const MALFORMED = [
   '(1.0) can0 8FF20800#00', '(1.0) can0 40000000#00', '(1.0) can0 123 #00', '(1.0) can0 123#0',
   '(1.0) can0 123#0G', '(1.0) can0 123#001122334455667788', '(1.0) can0 123#00 x',
   '(1.0) can0 123#00T', '(1.0) can0 123#R9', '(1.0) can0 123##', '(1.0) can0 123#00_9',
-  '(1.0) can0 18FF208#00', '(1.0) can0 018FF2080#00', '(1.0) can0', '(1.0)', ' (1.0) can0 123#00',
+  '(1.0) can0 18FF208#00', '(1.0) can0 018FF2080#00', '(1.0) can0', '(1.0)',
   '(-1.0) can0 123#00', '(1.0000000000) can0 123#00', '(1.0) can0 123#00\r\r', '\0\0\0',
 ];
 
@@ -159,10 +161,55 @@ test('a source that begins anew is another time; a leap ahead is not', () => {
   const before = '(100.0) a 123#00\n(100.1) a 123#01\n';
   const anew = parse(`${before}(0.0) a 123#02\n(0.1) a 123#03\n(0.2) a 123#04\n`);
   assert.equal(anew.block.restart, true);
-  assert.deepEqual(anew.rows.map(({time_s}) => time_s), [0.1, 0.2]);
+  assert.deepEqual(anew.rows.map(({time_s}) => time_s), [0, 0.1, 0.2]);
   const leap = parse(`${before}(1700000000.0) a 123#02\n(1700000000.1) a 123#03\n`);
   assert.equal(leap.block.restart, false);
-  assert.deepEqual(leap.rows.map(({time_s}) => time_s), [100, 100.1, 1700000000.1]);
+  assert.deepEqual(leap.rows.map(({time_s}) => time_s), [100, 100.1, 1700000000, 1700000000.1]);
+});
+
+test('a log goes on where its clock was set back or its bus was silent', () => {
+  const log = (text: string): {times: number[]; block: FrameBlock} => {
+    const parser = new CandumpParser(true);
+    parser.feed(bytes_of(text));
+    parser.end();
+    const block = parser.take();
+    return {times: rows_of(block).map(({time_s}) => time_s).sort((a, b) => a - b), block};
+  };
+  const before = '(3700.0) a 123#00\n(3700.5) a 123#01\n';
+  const back = log(`${before}(100.5) a 123#02\n(101.0) a 123#03\n`);
+  assert.equal(back.block.restart, false);
+  assert.deepEqual(back.times, [3700, 3700.5, 3702.5, 3703]);
+  assert.deepEqual(back.block.count.first_break, {line: 3, by_s: -3600});
+  const gap = log(`${before}(4300.5) a 123#02\n(4300.5) a 123#03\n`);
+  assert.deepEqual(gap.times, [3700, 3700.5, 4300.5, 4300.5]);
+  assert.deepEqual([gap.block.count.breaks, gap.block.count.first_break], [1, {line: 3, by_s: 600}]);
+});
+
+interface Case {
+  line: string;
+  is: 'frame' | 'other' | 'lost' | 'broken';
+  id?: string;
+  extended?: boolean;
+  data?: string;
+  time_s?: number;
+  frames?: number;
+}
+
+test('each line is what the terminal takes it for', () => {
+  assert.ok(cases.length > 50);
+  for (const {line: text, is, id, extended, data, time_s, frames} of cases as Case[]) {
+    const {rows, block} = parse(`${text}\n`);
+    const told = rows.filter(({key}) => (key & 0x40000000) === 0);
+    assert.equal(block.count.malformed, is === 'broken' ? 1 : 0, text);
+    assert.equal(block.count.lost, frames ?? 0, text);
+    assert.equal(told.length, is === 'frame' ? 1 : 0, text);
+    if (is === 'frame') {
+      const [{key, length, time_s: at_s, bytes}] = told;
+      assert.equal(key, parseInt(id!, 16) + (extended ? 0x80000000 : 0), text);
+      assert.equal(at_s, time_s, text);
+      assert.equal(bytes.slice(0, length).map((byte) => hex(byte, 2)).join(''), data, text);
+    }
+  }
 });
 
 test('many frames, ids and lengths, each in its column', () => {
@@ -195,7 +242,7 @@ test('noise of ids does not fill the memory', () => {
 const DATA = '(?:R[0-8]?|(?:[0-9A-Fa-f]{2}){8}_[9A-Fa-f]|(?:[0-9A-Fa-f]{2}){0,8}|#[0-9A-Fa-f]+)';
 const ID = '(?:[0-3][0-9A-Fa-f]{7}|[0-7][0-9A-Fa-f]{2})';
 const STAMP = '\\(\\d{1,12}\\.\\d{1,9}\\)';
-const LINE = new RegExp(`^${STAMP} [^\\x00-\\x20]+ ${ID}#${DATA}(?: [A-Z ]*)?\\r?$`);
+const LINE = new RegExp(`^ *${STAMP} +[^\\x00-\\x20]+ +${ID}#${DATA}(?: [A-Z ]*)?\\r?$`);
 const LETTERS = ' ()#.:_RTaAfFgG0123456789\r\t-/\u0000\u00ff';
 
 test('a garbled line is a line or none, as its form has it', () => {

@@ -252,6 +252,7 @@ test('what the sender says of itself, and what was not understood', () => {
     line(1, 0x1234, [1, 2, 3]) + line(1, BOOM.id, [1, 2]) + boom_line(0.9, 2));
   assert.deepEqual(store.health, {
     lines: 6, malformed: 1, first_malformed: {line: 3, text: 'rubbish'}, foreign: 2, backwards: 1,
+    lost: 0, breaks: 0, first_break: null,
     profile_hash: 0xdeadbeef, dbc_version: 3,
   });
 });
@@ -262,6 +263,13 @@ test('a source that begins anew begins the store anew', () => {
   parser.feed(bytes_of(boom_line(100, 1) + boom_line(0, 2) + boom_line(0.01, 3)));
   store.append(parser.take());
   assert.equal(store.until_s, 0.01);
-  assert.equal(store.rows('BoomStroke').count, 1);
+  assert.equal(store.rows('BoomStroke').count, 2);
   assert.deepEqual(store.faults(), []);
+});
+
+test('a message is known by PGN and source, whatever its priority', () => {
+  const store = store_of(line(0, (BOOM.id & 0x3ffffff) | 0x18000000, protected_bytes(BOOM.data_id, 0, 1000)));
+  assert.equal(store.health.foreign, 0);
+  assert.equal(store.rows('BoomStroke').count, 1);
+  assert.equal(store.reading('BoomStroke.BoomStroke', 0).state, 'valid');
 });

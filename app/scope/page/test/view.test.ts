@@ -256,7 +256,7 @@ test('a log that is still read is not called empty, and a packed one has no shar
     state.file_opened();
     state.onSetup(file_setup(SETUP, {name, size: 100}));
     state.onFrames({columns: [], restart: true, count: {lines: 0, malformed: 0,
-      first_malformed: null, backwards: 0, unheard: 0}}, bytes);
+      first_malformed: null, backwards: 0, unheard: 0, lost: 0, breaks: 0, first_break: null}}, bytes);
     return link_words(state);
   };
   assert.equal(opened('a.log.gz', 900), 'reading');

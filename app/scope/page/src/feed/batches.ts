@@ -20,8 +20,8 @@ export class Batches {
   constructor(private readonly hear: Hear) {}
 
   /// Another source: what follows has nothing to do with what came before.
-  begin(): void {
-    this.parser = new CandumpParser();
+  begin(is_log = false): void {
+    this.parser = new CandumpParser(is_log);
     this.text_bytes = 0;
     this.restart = true;
   }

@@ -54,7 +54,7 @@ export class Intake {
   }
 
   private async read(source: Promise<ReadableStream<Uint8Array>>, turn: number): Promise<void> {
-    this.batches.begin();
+    this.batches.begin(true);
     this.batches.loading = true;
     let why: string | null = null;
     try {

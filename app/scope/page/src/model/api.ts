@@ -301,7 +301,7 @@ export interface Database {
   readonly kind: Kind;
   readonly version: number;
   readonly messages: ReadonlyMap<string, MessageDef>;
-  readonly by_id: ReadonlyMap<number, MessageDef>;
+  readonly by_id: ReadonlyMap<number, MessageDef>;  ///< By identity_of (dbc.ts).
   signal(path: string): SignalDef;  ///< 'BoomStroke.BoomStroke'; throws where there is none.
 }
 
@@ -354,7 +354,10 @@ export interface LogHealth {
   malformed: number;
   first_malformed: {line: number; text: string} | null;
   foreign: number;         ///< Frames that the DBC does not have.
-  backwards: number;       ///< Stamps before the one before.
+  backwards: number;       ///< Stamps a little before the one before.
+  lost: number;            ///< Frames that the log itself says it lacks.
+  breaks: number;          ///< Gaps and steps of its clock.
+  first_break: {line: number; by_s: number} | null;
   profile_hash: number | null;     ///< As the controller or the machine says.
   dbc_version: number | null;
 }

@@ -3,7 +3,7 @@
 /// angles, or slopes against the horizontal. The profile of the bus says where they are.
 
 import type {BusMessage, BusSignal, ExcavatorMachine, MessageDef} from './api';
-import type {SignalLayout} from './dbc';
+import {identity_of, type SignalLayout} from './dbc';
 import {EXTENDED} from './frame_block';
 import {strokes_of} from './imu_strokes';
 import {Series} from './series';
@@ -28,6 +28,16 @@ export function raw_of({start, width, motorola, signed}: BusSignal, buffer: Uint
   return signed && raw >= 2 ** (width - 1) ? raw - 2 ** width : raw;
 }
 
+/// As the controller has it (hal/can_frame.hpp): of 29 bits PGN and source count, and source FE is
+/// any.
+function is_named_by(key: number, id: number, extended: boolean): boolean {
+  if (!extended || key < EXTENDED) {
+    return !extended && key === id;
+  }
+  const any = (id & 0xff) === 0xfe ? 0xff : 0;
+  return (identity_of(key - EXTENDED) | any) === (identity_of(id) | any);
+}
+
 /// Goes on as frames come, by every frame of the bus' first message of links.
 export class BusEstimate {
   private read = 0;  ///< Of that message, ever.
@@ -39,7 +49,7 @@ export class BusEstimate {
     const {messages} = this.machine.bus!;
     const kept = [...all];
     const sent = messages.map(({id, extended, length}) =>
-      kept.find((one) => one.key === id + (extended ? EXTENDED : 0) && one.length === length));
+      kept.find((one) => one.length === length && is_named_by(one.key, id, extended)));
     const leader = sent[0];
     if (leader === undefined) {
       return;

@@ -4,38 +4,34 @@
 /// seven million lines, to be read in about a second.
 
 import {ERROR, EXTENDED, REMOTE, type FrameBlock, type ParseCount} from './frame_block';
+import {
+  DECIMAL, HEX, NEW_LINE, RETURN, SPACE, after_blanks, five_digits, four_hex, line_end,
+} from './candump_text';
 import {ParserColumns} from './parser_columns';
 import {Stamp, StampOrder} from './stamps';
 
-const NEW_LINE = 10;
-const RETURN = 13;
-const SPACE = 32;
 const HASH = 35;
 const OPEN = 40;
 const CLOSE = 41;
 const POINT = 46;
 const ZERO = 48;
 const REMOTE_LETTER = 82;
-const DLC_MARK = 95;
+const COLON = 58;
+const DROPPED = 'DROPCOUNT: dropped ';
+/// What follows an id on a terminal: length, bytes, and text that says no more.
+const TERMINAL = /^\[(\d{1,4})\] *((?:[0-9A-Fa-f]{2}(?: +|(?=\r?$)))*)(.*?)\r?$/;
+const XL = /^[0-9A-Fa-f]{2}:[0-9A-Fa-f]{2}:[0-9A-Fa-f]{8}#[0-9A-Fa-f.]*(?: [A-Z ]*)?\r?$/;
 
 /// No line that is one is longer; the rest of a longer one is skipped, not kept.
 const MOST_LINE = 1024;
 const SHOWN_OF_LINE = 80;
 
-/// Values of hexadecimal digits; -1 for all else, so that an or of several shows one that is none.
-const HEX = new Int8Array(256).fill(-1);
-for (let digit = 0; digit < 16; ++digit) {
-  HEX[digit.toString(16).charCodeAt(0)] = digit;
-  HEX[digit.toString(16).toUpperCase().charCodeAt(0)] = digit;
-}
-/// The same of decimal digits.
-const DECIMAL = HEX.map((digit) => digit > 9 ? -1 : digit);
 const POWER_OF_TEN = [1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
 /// Takes text in pieces cut anywhere and gives columns of frames.
 export class CandumpParser {
   private readonly columns = new ParserColumns();
-  private readonly order = new StampOrder();
+  private readonly order: StampOrder;
   private readonly data = new Uint8Array(8);
   private rest = new Uint8Array(0);  ///< Of a line whose end has not come.
   private overlong = false;
@@ -45,6 +41,13 @@ export class CandumpParser {
   private unheard = 0;
   private first_malformed: {line: number; text: string} | null = null;
   private pending = 0;
+  private lost = 0;
+  private readonly held = {key: 0, length: 0, bytes: new Uint8Array(8)};
+
+  /// A log's time goes on where its clock was set back; a live source begins anew.
+  constructor(is_log = false) {
+    this.order = new StampOrder(is_log);
+  }
 
   /// Frames that `take` would give.
   get frames(): number { return this.pending; }
@@ -73,6 +76,7 @@ export class CandumpParser {
       this.keep(Uint8Array.of(NEW_LINE));
       this.end_of_rest();
     }
+    this.order.end();
   }
 
   /// A connection was lost in the middle of a line: the next one begins with a whole one.
@@ -92,7 +96,8 @@ export class CandumpParser {
   private count(): ParseCount {
     return {
       lines: this.lines, malformed: this.malformed, first_malformed: this.first_malformed,
-      backwards: this.order.backwards, unheard: this.unheard + this.order.leaps,
+      backwards: this.order.backwards, unheard: this.unheard + this.order.garbled,
+      lost: this.lost, breaks: this.order.breaks, first_break: this.order.first_break,
     };
   }
 
@@ -127,7 +132,7 @@ export class CandumpParser {
         continue;
       }
       ++this.lines;
-      const next = this.usual(text, at) || this.line(text, at);
+      const next = this.usual(text, at) || this.line(text, at) || this.dropped(text, at);
       if (next > 0) {
         at = next;
       } else {
@@ -177,7 +182,7 @@ export class CandumpParser {
 
   /// One line. Where the next one begins; 0 where this one is none.
   private line(text: Uint8Array, from: number): number {
-    let at = from;
+    let at = after_blanks(text, from);
     if (text[at] !== OPEN) {
       return 0;
     }
@@ -201,7 +206,8 @@ export class CandumpParser {
     // Six places and ten digits before them are a whole number that a double has exactly.
     const scale = POWER_OF_TEN[places];
     const time_s = places === 6 ? (seconds * 1e6 + fraction) / 1e6 : seconds + fraction / scale;
-    at += 2;
+    // Names are padded, to stand below each other.
+    at = after_blanks(text, at + 1);
     const interface_at = at;
     while (text[at] > SPACE) {
       ++at;
@@ -209,7 +215,27 @@ export class CandumpParser {
     if (text[at] !== SPACE || at === interface_at) {
       return 0;
     }
-    return this.frame(text, at + 1, time_s);
+    return this.frame(text, after_blanks(text, at), time_s);
+  }
+
+  /// What candump says of frames that its socket lost.
+  private dropped(text: Uint8Array, from: number): number {
+    let at = from;
+    for (; at < from + DROPPED.length; ++at) {
+      if (text[at] !== DROPPED.charCodeAt(at - from)) {
+        return 0;
+      }
+    }
+    const digits_at = at;
+    let frames = 0;
+    for (let digit = text[at] - ZERO; digit >= 0 && digit <= 9; digit = text[++at] - ZERO) {
+      frames = frames * 10 + digit;
+    }
+    if (at === digits_at || at - digits_at > 9 || text[at] !== SPACE) {
+      return 0;
+    }
+    this.lost += frames;
+    return text.indexOf(NEW_LINE, at) + 1;
   }
 
   private frame(text: Uint8Array, from: number, time_s: number): number {
@@ -220,6 +246,13 @@ export class CandumpParser {
     }
     id >>>= 0;
     const digits = at - from;
+    const is_known = digits === 8 || (digits === 3 && id <= 0x7ff);
+    if (text[at] === SPACE && is_known && id < REMOTE) {
+      return this.terminal_frame(text, after_blanks(text, at), digits === 8, id, time_s);
+    }
+    if (text[at] === HASH && digits >= 3 && digits <= 5 && text[at + 3] === COLON) {
+      return this.xl_frame(text, at + 1);
+    }
     if (text[at] !== HASH || !(digits === 8 || (digits === 3 && id <= 0x7ff))) {
       return 0;
     }
@@ -272,6 +305,40 @@ export class CandumpParser {
     return length;
   }
 
+  /// `[2]  AA BB  '..'` after an id: as candump writes to a terminal.
+  private terminal_frame(text: Uint8Array, from: number, extended: boolean, id: number, time_s: number): number {
+    const end = text.indexOf(NEW_LINE, from);
+    const said = String.fromCharCode(...text.subarray(from, Math.min(end, from + MOST_LINE)));
+    const match = TERMINAL.exec(said);
+    if (match === null) {
+      return 0;
+    }
+    const bytes = match[2] === '' ? [] : match[2].trim().split(/ +/).map((byte) => parseInt(byte, 16));
+    const is_report = extended && id >= ERROR;
+    if (bytes.length !== Number(match[1]) && match[3] !== 'remote request') {
+      return 0;
+    }
+    if (!is_report && match[3] !== '' && !/^('|remote request$)/.test(match[3])) {
+      return 0;
+    }
+    if (is_report || match[3] === 'remote request' || bytes.length > 8) {
+      ++this.unheard;
+      return end + 1;
+    }
+    this.data.fill(0xff);
+    this.data.set(bytes);
+    this.add(extended ? (id | EXTENDED) >>> 0 : id, bytes.length, time_s);
+    return end + 1;
+  }
+
+  /// `81:00:00000000#` and data: a frame of CAN XL.
+  private xl_frame(text: Uint8Array, from: number): number {
+    const end = text.indexOf(NEW_LINE, from);
+    const is_one = XL.test(String.fromCharCode(...text.subarray(from, Math.min(end, from + MOST_LINE))));
+    this.unheard += is_one ? 1 : 0;
+    return is_one ? end + 1 : 0;
+  }
+
   /// `##` flags and data: whole, it is another bus's; this one's frames are classic.
   private fd_frame(text: Uint8Array, from: number): number {
     let at = from;
@@ -284,8 +351,9 @@ export class CandumpParser {
   }
 
   private add(key: number, length: number, time_s: number): void {
-    const stamp = this.order.judge(time_s);
-    if (stamp === Stamp.leave) {
+    const stamp = this.order.judge(time_s, this.lines);
+    if (stamp === Stamp.hold) {
+      Object.assign(this.held, {key, length, bytes: this.data.slice()});
       return;
     }
     if (stamp === Stamp.restart) {
@@ -293,14 +361,20 @@ export class CandumpParser {
       this.pending = 0;
       this.restart = true;
     }
+    if (stamp !== Stamp.use) {
+      this.put(this.held.key, this.held.length, this.order.held_s, this.held.bytes);
+    }
+    this.put(key, length, this.order.time_s, this.data);
+  }
+
+  private put(key: number, length: number, time_s: number, data: Uint8Array): void {
     const column = this.columns.open(key, length);
     if (column === null) {
       ++this.unheard;
       return;
     }
     const row = column.rows++;
-    column.time_s[row] = this.order.time_s;
-    const {data} = this;
+    column.time_s[row] = time_s;
     const {bytes} = column;
     const at = 8 * row;
     for (let i = 0; i < 8; ++i) {
@@ -319,39 +393,4 @@ export class CandumpParser {
       this.first_malformed = {line: this.lines, text: printed.trimEnd() + cut};
     }
   }
-}
-
-/// Below 0 where one of them is none.
-function five_digits(text: Uint8Array, at: number): number {
-  const a = DECIMAL[text[at]];
-  const b = DECIMAL[text[at + 1]];
-  const c = DECIMAL[text[at + 2]];
-  const d = DECIMAL[text[at + 3]];
-  const e = DECIMAL[text[at + 4]];
-  return (a | b | c | d | e) < 0 ? -1 : (((a * 10 + b) * 10 + c) * 10 + d) * 10 + e;
-}
-
-/// Below 0 where one of them is none.
-const four_hex = (text: Uint8Array, at: number): number =>
-  (HEX[text[at]] << 12) | (HEX[text[at + 1]] << 8) | (HEX[text[at + 2]] << 4) | HEX[text[at + 3]];
-
-/// Where the next line begins, with nothing left of this one but what candump may write after a
-/// frame: the DLC of a frame of eight bytes, and letters that say which way it went. Else 0.
-function line_end(text: Uint8Array, from: number, length: number): number {
-  let at = from;
-  if (text[at] === NEW_LINE) {
-    return at + 1;
-  }
-  if (text[at] === DLC_MARK && length === 8 && HEX[text[at + 1]] > 8) {
-    at += 2;
-  }
-  if (text[at] === SPACE) {
-    while (text[at] === SPACE || (text[at] >= 65 && text[at] <= 90)) {
-      ++at;
-    }
-  }
-  if (text[at] === RETURN) {
-    ++at;
-  }
-  return text[at] === NEW_LINE ? at + 1 : 0;
 }

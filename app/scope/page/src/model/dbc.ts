@@ -9,6 +9,10 @@ import type {Database, Kind, MessageDef, SignalDef} from './api';
 import {aligned_byte, compile, type Extract, type Place} from './extract';
 
 const EXTENDED = 0x80000000;
+
+/// What of a 29-bit id says which message it is: PGN and source address; the priority above them is
+/// the sender's.
+export const identity_of = (id: number): number => id & 0x3ffffff;
 const ID_BITS = 0x1fffffff;
 
 type Content = ReturnType<Dbc['load']>;
@@ -74,7 +78,7 @@ export function parseDatabase(kind: Kind, text: string): Database {
   for (const message of content.messages.values()) {
     const def = message_def(message, comments);
     messages.set(def.name, def);
-    by_id.set(def.id, def);
+    by_id.set(identity_of(def.id), def);
   }
   const signal = (path: string): SignalDef => {
     const [name, of] = path.split('.');

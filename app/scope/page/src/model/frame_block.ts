@@ -16,9 +16,12 @@ export interface ParseCount {
   lines: number;      ///< That were not empty.
   malformed: number;
   first_malformed: {line: number; text: string} | null;
-  backwards: number;  ///< Stamps before the one before.
-  /// CAN FD and error frames, ids beyond the number that is kept, stamps far ahead of all others.
+  backwards: number;  ///< Stamps a little before the one before.
+  /// CAN FD, CAN XL and error frames, ids beyond the number that is kept, stamps that fit no other.
   unheard: number;
+  lost: number;       ///< Frames that the log itself says it lacks (DROPCOUNT).
+  breaks: number;     ///< Gaps and steps of the clock.
+  first_break: {line: number; by_s: number} | null;
 }
 
 export interface FrameBlock {

@@ -7,9 +7,9 @@ import type {
 import {BusEstimate} from './bus_frames';
 import {bits_in_second} from './bus_load';
 import {EMPTY, make_curve} from './curve';
-import {databaseOf, loadDatabase, type SignalLayout} from './dbc';
+import {databaseOf, identity_of, loadDatabase, type SignalLayout} from './dbc';
 import {ImuEstimate} from './imu_frames';
-import {EXTENDED, type FrameBlock, type ParseCount} from './frame_block';
+import {EXTENDED, REMOTE, type FrameBlock, type ParseCount} from './frame_block';
 import {Series} from './series';
 
 /// Messages that only one kind of machine has.
@@ -26,8 +26,13 @@ const MOST_FAULTS = 40_000;
 const MOST_CURVES = 256;
 
 const NOTHING: ParseCount =
-  {lines: 0, malformed: 0, first_malformed: null, backwards: 0, unheard: 0};
+  {lines: 0, malformed: 0, first_malformed: null, backwards: 0, unheard: 0,
+    lost: 0, breaks: 0, first_break: null};
 const NEVER: Reading = {value: NaN, raw: 0, state: 'never', age_s: Infinity};
+
+/// Frames as all messages of ours are: 29 bits, 8 bytes, no remote ones.
+const is_data = ({key, length}: Series): boolean =>
+  key >= EXTENDED && key < EXTENDED + REMOTE && length === 8;
 
 /// Columns are taken over, not copied. Stamps never go back within a store: the parser sees to it
 /// (stamps.ts) and says with a block's `restart` that what came before is of another time; then
@@ -169,9 +174,9 @@ export class PageStore implements FrameStore {
     for (const series of this.series.values()) {
       foreign += this.known !== null && this.def_of(series) === null ? series.seen : 0;
     }
-    const {lines, malformed, first_malformed, backwards} = this.count;
+    const {lines, malformed, first_malformed, backwards, lost, breaks, first_break} = this.count;
     return {
-      lines, malformed, first_malformed, foreign, backwards,
+      lines, malformed, first_malformed, foreign, backwards, lost, breaks, first_break,
       profile_hash: this.identity('ProfileHash'), dbc_version: this.identity('DbcVersion'),
     };
   }
@@ -199,12 +204,17 @@ export class PageStore implements FrameStore {
   }
 
   private series_of(message: MessageDef): Series | null {
-    return this.series.get(16 * (message.id + EXTENDED) + 8) ?? this.estimated.get(message.name) ?? null;
+    return this.series.get(16 * (message.id + EXTENDED) + 8) ?? this.at_other_priority(message)
+      ?? this.estimated.get(message.name) ?? null;
+  }
+
+  private at_other_priority(message: MessageDef): Series | undefined {
+    return [...this.series.values()].find((series) =>
+      is_data(series) && identity_of(series.key) === identity_of(message.id));
   }
 
   private def_of(series: Series): MessageDef | null {
-    const whole = series.key >= EXTENDED && series.length === 8;
-    return (whole && this.known?.by_id.get(series.key - EXTENDED)) || null;
+    return (is_data(series) && this.known?.by_id.get(identity_of(series.key))) || null;
   }
 
   /// Null where the database, if there is one, has no such signal.

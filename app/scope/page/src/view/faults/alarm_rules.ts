@@ -156,6 +156,22 @@ function log_alarms({store, setup, machine, ended}: PageState): Alarm[] {
         + 'is not drawn; say --profile.',
     });
   }
+  if (health.lost > 0) {
+    alarms.push({
+      id: 'lost', level: 'warning',
+      words: `${count(health.lost)} frame${health.lost === 1 ? ' was' : 's were'} lost as this was recorded.`,
+    });
+  }
+  const {first_break: first} = health;
+  const mode = setup?.source.mode;
+  if (first !== null && mode !== 'can' && mode !== 'sim') {
+    const more = health.breaks > 1 ? `, and ${count(health.breaks - 1)} more` : '';
+    alarms.push({
+      id: 'break', level: 'warning',
+      words: first.by_s > 0 ? `A gap of ${first.by_s.toFixed(2)} s before line ${first.line}${more}.`
+        : `The log's clock goes back by ${(-first.by_s).toFixed(2)} s at line ${first.line}${more}.`,
+    });
+  }
   if (health.backwards > 0) {
     alarms.push({
       id: 'backwards', level: 'warning',

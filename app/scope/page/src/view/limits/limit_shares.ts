@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How long what held lambda, over the window of the plots: counted once, for the strip's key and the
+/// How long what held lambda, over the window of the plots: counted once, by time and none across a gap, for the strip's key and the
 /// run's table alike.
 
 import type {FrameStore} from '../../model/api';
@@ -8,9 +8,11 @@ import type {PageState} from '../basics/page_state';
 
 export interface LimitShare {
   key: number;    ///< As limit_key makes it.
-  share: number;  ///< Of the window's frames that say Active.
+  share: number;  ///< Of the window's time up to each frame that says Active.
 }
 
+/// Without a frame for longer, a piece of a log ends (model/stamps.ts).
+const GAP_S = 1;
 const EVERY_MS = 500;
 const ACTIVE = 3;  ///< EcuStatus.Mode.
 
@@ -25,19 +27,24 @@ export function limit_shares(store: FrameStore, from_s: number, until_s: number)
     return [];
   }
   const rows = store.rows('EcuStatus');
-  const counts = new Map<number, number>();
+  const held = new Map<number, {time_s: number; frames: number}>();
   const last = rows.at(until_s);
-  let all = 0;
+  let [all_s, all] = [0, 0];
   for (let row = rows.at(from_s) + 1; row <= last; ++row) {
     const {buffer, at} = rows.bytes(row);
     if (mode.raw(buffer, at) !== ACTIVE) {
       continue;
     }
-    ++all;
+    const passed_s = row > 0 ? rows.time(row) - rows.time(row - 1) : 0;
+    const time_s = passed_s > GAP_S ? 0 : passed_s;
     const key = limit_key(kind.raw(buffer, at), index.raw(buffer, at));
-    counts.set(key, (counts.get(key) ?? 0) + 1);
+    const before = held.get(key) ?? {time_s: 0, frames: 0};
+    held.set(key, {time_s: before.time_s + time_s, frames: before.frames + 1});
+    all_s += time_s;
+    ++all;
   }
-  return [...counts].map(([key, count]) => ({key, share: count / all}))
+  // A single frame has no time before it.
+  return [...held].map(([key, {time_s, frames}]) => ({key, share: all_s > 0 ? time_s / all_s : frames / all}))
     .sort((a, b) => b.share - a.share);
 }
 
