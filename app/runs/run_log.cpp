@@ -98,9 +98,12 @@ class Reader {
   void status(const identify::LoggedFrame& frame) {
     const Status status = Status::decode(frame.data);
     const bool is_active = status.mode.value == Status::Mode::kActive;
-    const double passed_s = run_.status_s.empty()
-                                ? 0.0
-                                : identify::LogClock::counted_s(run_.status_s.back(), frame.time_s);
+    // The first frame of a piece stands for as long as the last one of the piece before.
+    const double passed_s =
+        run_.status_s.empty()
+            ? 0.0
+            : identify::LogClock::counted_s(run_.status_s.back(), frame.time_s, status_period_s_);
+    status_period_s_ = passed_s;
     put(0, frame, status.lambda);
     is_active_ = is_active;
     if (is_active) {
@@ -181,6 +184,7 @@ class Reader {
   bool is_kind_known_ = false;
   bool is_started_ = false;
   bool is_active_ = false;
+  double status_period_s_ = 0.0;  ///< From one EcuStatus to the next.
   bool is_ready_ = false;
 };
 

@@ -25,9 +25,10 @@ struct ClockBreak {
 
 class LogClock {
  public:
-  /// What counts of the time between two frames of a log: none across the end of a piece.
-  static double counted_s(double before_s, double now_s) {
-    return now_s - before_s > kGap_s ? 0.0 : now_s - before_s;
+  /// What counts of the time between two frames of a log: across the end of a piece `otherwise_s`,
+  /// none, or what a frame usually stands for.
+  static double counted_s(double before_s, double now_s, double otherwise_s = 0.0) {
+    return now_s - before_s > kGap_s ? otherwise_s : now_s - before_s;
   }
 
   using Take = std::function<void(const LoggedFrame&)>;
