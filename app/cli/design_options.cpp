@@ -30,7 +30,7 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
   command
       .add_option("--units", source.units,
                   "Of points: m, ft, us-ft (US survey feet); m unless told")
-      ->check(CLI::IsMember({"m", "ft", "us-ft"}));
+      ->check(one_of({"m", "ft", "us-ft"}));
   command
       .add_option(
           "--track", source.track_m,

@@ -74,7 +74,9 @@ TEST(it_asks_for_its_ids_or_for_all) {
   assert_false(two.open());
   assert_string_equal(g_config.interface.c_str(), "can7");
   assert_int_equal(g_config.filters.size(), 2);
-  assert_int_equal(g_config.filters[1].can_id, 0x0CF00400U | CAN_EFF_FLAG);
+  // Of every priority.
+  assert_int_equal(g_config.filters[1].can_id, 0x00F00400U | CAN_EFF_FLAG);
+  assert_int_equal(g_config.filters[1].can_mask & CAN_EFF_MASK, 0x03FFFFFFU);
   SocketCanPort all("can8", {}, &open_pair);
   assert_false(all.open());
   assert_true(g_config.filters.empty());
