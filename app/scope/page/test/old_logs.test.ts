@@ -27,7 +27,7 @@ test(`an excavator of version ${version}`, () => {
   assert.deepEqual(states(store, 'EcuStatus.Mode', [24.91, 25.03, 25.05]), ['Active', 'Active', 'Active']);
   assert.equal(store.reading('EcuStatus.Lambda', 24.95).value, 1);
   const shares = limit_shares(store, 24, 26).map(({key, share}) => [key, Math.round(100 * share)]);
-  assert.deepEqual(shares, [[limit_key(13, 0), 70], [0, 30]]);
+  assert.deepEqual(shares, [[limit_key(13, 0), 67], [0, 33]]);
   assert.deepEqual(store.faults(), []);
 });
 

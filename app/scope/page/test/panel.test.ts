@@ -60,7 +60,7 @@ test('a limit has one colour of its own, whatever was seen before it, in both th
 
 const status_bytes = (kind: number, index: number) => [3 | (kind << 3), index, 0, 0, 0, 0, 0, 0];
 
-test('shares are counted by frames that say Active, in the window that is told', () => {
+test('shares are counted by time up to each frame that says Active, in the window that is told', () => {
   const status = (time_s: number, kind: number, index: number) =>
     line(time_s, id('EcuStatus'), status_bytes(kind, index));
   const store = store_of(line(0, id('BoomStroke'), new Uint8Array(8))
@@ -68,9 +68,17 @@ test('shares are counted by frames that say Active, in the window that is told',
     + status(0.04, 0, 0) + line(0.05, id('EcuStatus'), [2, 0, 0, 0, 0, 0, 0, 0]));
   const words = (from_s: number, until_s: number) => limit_shares(store, from_s, until_s)
     .map(({key, share}) => [key, Math.round(share * 100)]);
-  assert.deepEqual(words(-1, 1), [[0, 40], [limit_key(3, 0), 40], [limit_key(3, 1), 20]]);
+  assert.deepEqual(words(-1, 1), [[limit_key(3, 0), 50], [0, 25], [limit_key(3, 1), 25]]);
   assert.deepEqual(words(0.005, 0.025), [[limit_key(3, 0), 100]]);
   assert.deepEqual(words(2, 3), []);
+});
+
+test('across a gap a frame stands for as long as the one before it', () => {
+  const status = (time_s: number, kind: number) => line(time_s, id('EcuStatus'), status_bytes(kind, 0));
+  const store = store_of(line(0, id('BoomStroke'), new Uint8Array(8))
+    + status(0, 3) + status(0.01, 3) + status(600, 5) + status(600.01, 3) + status(600.02, 3));
+  assert.deepEqual(limit_shares(store, -1, 601).map(({key, share}) => [key, Math.round(share * 100)]),
+    [[limit_key(3, 0), 75], [limit_key(5, 0), 25]]);
 });
 
 test('a message is stale after three of its cycles, whoever shows it', () => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How long what held lambda, over the window of the plots: counted once, by time and none across a gap, for the strip's key and the
-/// run's table alike.
+/// How long what held lambda, over the window of the plots: counted once, by time, for the strip's key and the run's table alike.
+/// Across a gap a frame stands for as long as the one before it.
 
 import type {FrameStore} from '../../model/api';
 import {limit_key} from './limit_colours';
@@ -29,14 +29,15 @@ export function limit_shares(store: FrameStore, from_s: number, until_s: number)
   const rows = store.rows('EcuStatus');
   const held = new Map<number, {time_s: number; frames: number}>();
   const last = rows.at(until_s);
+  const passed = (row: number): number => row > 0 ? rows.time(row) - rows.time(row - 1) : 0;
   let [all_s, all] = [0, 0];
   for (let row = rows.at(from_s) + 1; row <= last; ++row) {
     const {buffer, at} = rows.bytes(row);
     if (mode.raw(buffer, at) !== ACTIVE) {
       continue;
     }
-    const passed_s = row > 0 ? rows.time(row) - rows.time(row - 1) : 0;
-    const time_s = passed_s > GAP_S ? 0 : passed_s;
+    const passed_s = passed(row);
+    const time_s = passed_s <= GAP_S ? passed_s : Math.min(passed(row - 1), GAP_S);
     const key = limit_key(kind.raw(buffer, at), index.raw(buffer, at));
     const before = held.get(key) ?? {time_s: 0, frames: 0};
     held.set(key, {time_s: before.time_s + time_s, frames: before.frames + 1});
