@@ -244,16 +244,19 @@ bool is_other_log(const std::filesystem::path& file) {
   return false;
 }
 
-std::string candump_text(const std::filesystem::path& file) {
+std::string candump_text(const std::filesystem::path& file, LogRead* read) {
   std::string text;
-  static_cast<void>(read_candump(file, [&](const LoggedFrame& frame) {
+  LogRead whole = read_candump(file, [&](const LoggedFrame& frame) {
     text += fmt::format(frame.extended ? "({:.6f}) can0 {:08X}#" : "({:.6f}) can0 {:03X}#",
                         frame.time_s, frame.id);
     for (unsigned i = 0; i < frame.length; ++i) {
       text += fmt::format("{:02X}", frame.data[i]);
     }
     text += '\n';
-  }));
+  });
+  if (read != nullptr) {
+    *read = std::move(whole);
+  }
   return text;
 }
 

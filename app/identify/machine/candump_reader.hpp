@@ -51,6 +51,7 @@ LogRead read_candump(const std::filesystem::path& file,
 /// A log that is none of candump's, but one that is read (other_logs.hpp); for the page, which
 /// reads candump's alone, its frames as lines of those.
 [[nodiscard]] bool is_other_log(const std::filesystem::path& file);
-[[nodiscard]] std::string candump_text(const std::filesystem::path& file);
+/// `read`, unless null: what of it was left out.
+[[nodiscard]] std::string candump_text(const std::filesystem::path& file, LogRead* read = nullptr);
 
 }  // namespace graben::identify

@@ -64,7 +64,11 @@ int unpacked(const std::filesystem::path& name, int file) {
 
 /// A log of another tool as candump's lines, which the page reads, in a file without a name.
 int turned(const std::filesystem::path& name) {
-  const std::string text = identify::candump_text(name);
+  identify::LogRead read;
+  const std::string text = identify::candump_text(name, &read);
+  for (const std::string& note : read.notes()) {
+    fmt::print(stderr, "note: {}\n", note);  // The page is given whole lines only.
+  }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::tmpfile(), std::fclose);
   if (!out || std::fwrite(text.data(), 1, text.size(), out.get()) != text.size() ||
       std::fflush(out.get()) != 0) {

@@ -131,9 +131,13 @@ TEST(what_is_not_read_is_refused_with_its_kind) {
 /// The page reads candump's lines alone.
 TEST(another_log_turns_into_candumps) {
   const test::WrittenFile file("a.asc",
-                               "base hex  timestamps absolute\n 1.5 1 CFF2080x Rx d 1 34\n");
+                               "base hex  timestamps absolute\n 1.5 1 CFF2080x Rx d 1 34\n"
+                               " 1.6 1 12Gx Rx d 1 00\n 1.7 1 CFF2080x Rx d 1 35\n");
   assert_true(identify::is_other_log(file.path()));
-  assert_true(identify::candump_text(file.path()) == "(1.500000) can0 0CFF2080#34\n");
+  identify::LogRead read_of_it;
+  assert_true(identify::candump_text(file.path(), &read_of_it) ==
+              "(1.500000) can0 0CFF2080#34\n(1.700000) can0 0CFF2080#35\n");
+  assert_int_equal(read_of_it.notes().size(), 1);
   const test::WrittenFile own("a.log", "\xEF\xBB\xBF(1.5) can0 123#00\n");
   assert_false(identify::is_other_log(own.path()));
   assert_int_equal(read("b.log", "\xEF\xBB\xBF(1.5) can0 123#00\n").frames.size(), 1);
