@@ -47,15 +47,16 @@ double LinkAngle::sd_rad(double time_s) const {
 }
 
 bool LinkAngle::contradicts() const {
-  const bool jumped = jump_most_radps > 0.0 && std::abs(jumped_radps) > jump_most_radps;
-  return jumped || std::abs(off_rad) > kAngleContradicts_rad;
+  return jump_held_s > 0.0 || std::abs(off_rad) > kAngleContradicts_rad;
 }
 
 void begin_angle(const AngleNoise& noise, const AngleReading& reading, LinkAngle& state) {
   // What is known of the gyro stays true.
   const double bias_radps = state.bias_radps;
   const double bias_variance = state.bias_variance;
+  const double jump_held_s = state.jump_held_s;
   state = {};
+  state.jump_held_s = jump_held_s;
   state.bias_radps = bias_radps;
   state.bias_variance = bias_variance > 0.0 ? bias_variance : square(noise.bias_radps);
   if (!(reading.force_mps2.norm() > kAngleLeastForce_mps2)) {
@@ -113,7 +114,11 @@ void watch_gyro(const AngleNoise& noise, const Eigen::Vector2d& at_m,
   state.shaken = shaken + std::min(1.0, period_s / kGyroShakenTime_s) *
                               (std::min(square(more_mps2), kGyroShakenMost * shaken) - shaken);
   const double noise_radps = std::sqrt(0.5 * shaken * period_s * kGyroJumpTime_s) / lever_m;
-  state.jump_most_radps = std::max(kGyroJump_radps, kGyroJumpDeviations * noise_radps);
+  const double most_radps = std::max(kGyroJump_radps, kGyroJumpDeviations * noise_radps);
+  // Whether it still is off shows only by what it turns meanwhile: held until that has shown.
+  state.jump_held_s = std::abs(state.jumped_radps) > most_radps
+                          ? kGyroJumpHeld_s
+                          : std::max(0.0, state.jump_held_s - period_s);
 }
 
 void correct_angle(const AngleNoise& noise, const Eigen::Vector2d& acceleration_mps2,

@@ -58,7 +58,7 @@ struct LinkAngle {
   double jumps_radps = 0.0;
   double jumped_radps = 0.0;  ///< The same, low-passed: what shakes goes to and fro.
   double shaken = 0.0;  ///< Mean square of the force that the gyro does not explain, (m/s2)^2.
-  double jump_most_radps = 0.0;  ///< More of it than noise makes; 0: the force says nothing of it.
+  double jump_held_s = 0.0;  ///< How long yet a jump that was seen counts; 0: none was.
 
   /// Rate and its derivative are known either side.
   [[nodiscard]] bool runs() const { return readings > 2; }
@@ -70,7 +70,8 @@ struct LinkAngle {
   [[nodiscard]] bool contradicts() const;
 };
 
-/// Starts from a reading's force alone, as of a body that stands. A bias that is known stays.
+/// Starts from a reading's force alone, as of a body that stands. A bias that is known stays, and
+/// so does a jump that is held: the gyro is the same.
 void begin_angle(const AngleNoise& noise, const AngleReading& reading, LinkAngle& state);
 
 /// Goes on to the next reading by its rate; sets `then` once it runs. `at_rest`: nothing can move

@@ -68,5 +68,9 @@ inline constexpr double kGyroShakenMost = 9.0;
 inline constexpr double kGyroJump_radps = 0.035;
 /// Least of that in deviations of what the force's noise makes of it. [-; chosen: not tried]
 inline constexpr double kGyroJumpDeviations = 5.0;
+/// How long a jump counts after it was last seen: until then the gyro's own angle against gravity
+/// shows whether it still is off. [s; chosen: at 4 deg/s 20 deg, seven times what contradicts; 0
+/// tried, a machine was armed again beside a gyro that still was off in 9 of 20 seeds]
+inline constexpr double kGyroJumpHeld_s = 5.0;
 
 }  // namespace graben

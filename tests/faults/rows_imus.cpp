@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "can_dbc/generated/j1939_dbc.hpp"
 #include "firmware/excavator/motion/field/rounded_rectangle.hpp"
@@ -196,6 +197,18 @@ constexpr double kGyroHarmMost_m = 0.15;
 /// arm's, whose force may be shaken too much for that.
 constexpr double kNearGyroHarmMost_m = 0.25;
 
+/// Who lets go and asks anew while the gyro still is off moves nothing.
+void check_not_armed_again(Trial<Excavator>& trial) {
+  auto& rig = *trial.rig;
+  using Wish = std::pair<bool, Task>;
+  for (const auto& [enable, task] :
+       {Wish{false, Task::kNone}, Wish{true, Task::kNone}, Wish{true, Excavator::kTask}}) {
+    rig.ask(enable, task);
+    const bool again = rig.run_until(kSecondUs, [&] { return in_motion(rig.mode()); });
+    trial.check(!again, "moved again by a gyro that is off");
+  }
+}
+
 void gyro_jumps(Trial<Excavator>& trial) {
   dig_by_imus(trial);
   auto& rig = *trial.rig;
@@ -217,11 +230,12 @@ void gyro_jumps(Trial<Excavator>& trial) {
     most_m = std::max(most_m, tip_off_path_m(rig) - before_m);
     return rig.mode() != EcuMode::kActive;
   });
-  rig.tamper = nullptr;
   trial.check(seen, "not seen");
   trial.outcome.codes.add(rig.outputs().status.fault);
   trial.outcome.to_detection_us = rig.at_us() - since_us;
   trial.check(!rig.outputs().enable, "not neutral in that cycle");
+  check_not_armed_again(trial);
+  rig.tamper = nullptr;
   trial.outcome.harm = most_m;
   trial.outcome.harm_unit = "m";
   trial.check(most_m <= (axis == kBoom ? kGyroHarmMost_m : kNearGyroHarmMost_m),

@@ -281,17 +281,58 @@ TEST(its_bounds_are_no_contradiction, LinkAngle state) {
     state.off_rad = std::nextafter(state.off_rad, side);
     assert_true(state.contradicts());
     state.off_rad = 0.0;
-    state.jump_most_radps = 0.5;
-    state.jumped_radps = side * 0.5;
+  }
+  for (const double none_s : {0.0, -1.0}) {
+    state.jump_held_s = none_s;
     assert_false(state.contradicts());
-    state.jumped_radps = std::nextafter(state.jumped_radps, side);
-    assert_true(state.contradicts());
-    // A force that says nothing of it.
-    for (const double none_radps : {0.0, -1.0}) {
-      state.jump_most_radps = none_radps;
-      assert_false(state.contradicts());
-    }
-    state.jumped_radps = 0.0;
+  }
+  state.jump_held_s = std::nextafter(0.0, 1.0);
+  assert_true(state.contradicts());
+}
+
+/// Jumped by `jumped_radps` as of now, with a force that has no noise and shows nothing.
+LinkAngle looked_at(double jumped_radps, double held_s = 0.0) {
+  LinkAngle state;
+  begin_angle(kNoise, shown(0.0, kGravity), state);
+  state.then.angle_rad = 0.0;
+  state.then.force_mps2 = {0.0, kGravity};
+  state.last.period_s = kGyroShakeTime_s;  // What is low-passed is that of now, whole.
+  state.jumps_radps = jumped_radps / (1.0 - kGyroShakeTime_s / kGyroJumpTime_s);
+  state.jump_held_s = held_s;
+  watch_gyro(kNoise, {1e6, 0.0}, Eigen::Vector2d::Zero(), state);
+  return state;
+}
+
+/// Its bound is none; more of it counts from then for its whole time.
+TEST(a_jump_is_held) {
+  for (const double side : {1.0, -1.0}) {
+    assert_near(looked_at(side * kGyroJump_radps * 0.9999).jump_held_s, 0.0, 0.0);
+    assert_near(looked_at(side * kGyroJump_radps * 1.0001).jump_held_s, kGyroJumpHeld_s, 0.0);
+    assert_near(looked_at(side * kGyroJump_radps * 1.0001, 1.0).jump_held_s, kGyroJumpHeld_s, 0.0);
+  }
+  assert_near(looked_at(0.0, 1.0).jump_held_s, 1.0 - kGyroShakeTime_s, 1e-12);
+  assert_near(looked_at(0.0, 0.5 * kGyroShakeTime_s).jump_held_s, 0.0, 0.0);
+}
+
+/// The noise of the force counts as far as five deviations of what it makes.
+TEST(a_jump_is_more_than_noise) {
+  const double shaken = 9.0;
+  const double most_radps =
+      kGyroJumpDeviations * std::sqrt(0.5 * shaken * kGyroShakeTime_s * kGyroJumpTime_s) / 2.0;
+  assert_true(most_radps > kGyroJump_radps);
+  for (const bool more : {false, true}) {
+    LinkAngle state;
+    begin_angle(kNoise, shown(0.0, kGravity), state);
+    state.then.angle_rad = 0.0;
+    state.then.force_mps2 = {0.0, kGravity};
+    state.last.period_s = kGyroShakeTime_s;
+    state.jumps_radps =
+        most_radps * (more ? 1.0001 : 0.9999) / (1.0 - kGyroShakeTime_s / kGyroJumpTime_s);
+    state.shaken = shaken;
+    watch_gyro({0.0, 0.0, 1e-9}, {2.0, 0.0}, Eigen::Vector2d::Zero(), state);
+    // A reading that explains nothing takes so much of it away, for the next one.
+    assert_near(state.shaken, shaken * (1.0 - kGyroShakeTime_s / kGyroShakenTime_s), 1e-9);
+    assert_int_equal(state.jump_held_s > 0.0, more);
   }
 }
 
@@ -301,7 +342,9 @@ TEST(a_beginning_keeps_the_bias) {
     LinkAngle state;
     state.bias_radps = 0.25;
     state.bias_variance = known;
+    state.jump_held_s = 2.0;
     begin_angle({0.0, 3.0, 0.3}, shown(0.0, kGravity), state);
+    assert_near(state.jump_held_s, 2.0, 0.0);  // A jump that is held neither.
     assert_near(state.bias_variance, known > 0.0 ? known : 9.0, 0.0);
     assert_near(state.bias_radps, 0.25, 0.0);
   }
@@ -348,6 +391,6 @@ TEST(the_least_lever_tells_nothing) {
     begin_angle(kNoise, shown(0.0, kGravity), state);
     const double lever_m = more ? std::nextafter(kGyroLeastLever_m, 9.0) : kGyroLeastLever_m;
     watch_gyro(kNoise, {lever_m, 0.0}, Eigen::Vector2d::Zero(), state);
-    assert_int_equal(state.jump_most_radps > 0.0, more);
+    assert_int_equal(state.steady_s > 0.0, more);
   }
 }
