@@ -18,7 +18,7 @@ bool is_starved(const DriveRow& drive, const ValidDrive& seen, double asked_mps,
   const double open_from = drive.answer.towards(asked_mps).edge() + kSupplyOpenBeyond;
   const double fed_pa = way > 0.0 ? seen.cap_pressure_pa : seen.rod_pressure_pa;
   return way * seen.spool_ratio > open_from && fed_pa < kSupplyNone_pa &&
-         way * speed_mps < kSupplyStandsShare * std::abs(asked_mps);
+         way * speed_mps < kSupplyStarvedShare * std::abs(asked_mps);
 }
 
 }  // namespace
