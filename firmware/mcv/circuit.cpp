@@ -90,8 +90,9 @@ FlowBalance make_line(const McvMachine& machine, const PerActuator<CircuitAxis>&
 
 }  // namespace
 
-McvCircuit make_circuit(const McvMachine& machine, const McvInput& input) {
+McvCircuit make_circuit(const McvMachine& machine, const McvInput& input, Work* work) {
   McvCircuit circuit;
+  circuit.work = work;
   circuit.axis_count = static_cast<unsigned>(machine.actuator_count);
   circuit.pump_count = static_cast<unsigned>(machine.pump_count);
   for (unsigned i = 0; i < circuit.axis_count; ++i) {
@@ -100,6 +101,7 @@ McvCircuit make_circuit(const McvMachine& machine, const McvInput& input) {
   }
   for (unsigned j = 0; j < circuit.pump_count; ++j) {
     circuit.line[j] = make_line(machine, circuit.axis, j, input.pump_flow_m3ps[j]);
+    circuit.line[j].work = work;
     if (machine.pump[j].regulator.sets_swash()) {
       circuit.regulated = true;
       circuit.line[j].regulated = &machine.pump[j];

@@ -42,9 +42,11 @@ struct McvCircuit {
   const McvMachine* machine = nullptr;
   PerActuator<CircuitAxis> axis{};
   PerPump<FlowBalance> line{};
+  Work* work = nullptr;  ///< That of its lines.
 };
 
 /// For a machine and an input that passed their checks. The circuit points into the machine.
-[[nodiscard]] McvCircuit make_circuit(const McvMachine& machine, const McvInput& input);
+[[nodiscard]] McvCircuit make_circuit(const McvMachine& machine, const McvInput& input,
+                                      Work* work = nullptr);
 
 }  // namespace graben

@@ -53,7 +53,8 @@ PolicyResult climb(const McvCircuit& circuit, const McvPoint& slow, double most)
       return result;
     }
   }
-  // Rounding decides where the interval ends.
+  // Rounding decides where the interval ends, or the search has used up its steps.
+  allow_kept(circuit.work);
   const Start& end = result.bounded ? start : fed;
   const McvPoint high = evaluate(circuit, end.lambda);
   ++result.iterations;

@@ -76,6 +76,10 @@ LambdaChange holds_again(const McvCircuit& circuit, const McvPoint& failing, dou
   limit = next;
   // From one constraint to the other until neither moves r; at the cap the caller's check decides.
   for (int turn = 0; turn < kTurns && result.bounded; ++turn) {
+    if (!may_step(line.work)) {
+      result.bounded = false;
+      return result;
+    }
     const Requirement requirement = requirement_of(axis, next);
     const Change change = first_change(requirement, line, Towards::kSlower, ratio, end);
     result.steps += change.steps;
@@ -120,11 +124,16 @@ bool is_any_starved(const McvCircuit& circuit) {
 
 Halved halved(const McvCircuit& circuit, const McvPoint& low, const McvPoint& high, double width) {
   Halved result;
+  allow_kept(circuit.work);
   result.point = low;
   McvPoint fails = high;
   McvPoint near = high;
   double infeasible = high.lambda;
   for (int n = 0; n < kHalvings && infeasible - result.point.lambda > width; ++n) {
+    if (!may_step(circuit.work)) {
+      result.bounded = false;
+      return result;
+    }
     const double middle = 0.5 * (result.point.lambda + infeasible);
     ++result.evaluations;
     if (still_fails(circuit, fails, middle, near)) {

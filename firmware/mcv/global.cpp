@@ -16,6 +16,9 @@ PolicyResult search(const Asked& asked, McvPoint& above) {
     if (!(lambda >= kStandstillLambda)) {
       return result;
     }
+    if (!may_step(asked.circuit.work)) {
+      break;
+    }
     const McvCircuit& circuit = asked.at(lambda);
     const McvPoint point = evaluate(circuit, lambda, jump == 0 ? nullptr : &last);
     ++result.iterations;

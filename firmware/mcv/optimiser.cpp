@@ -190,8 +190,10 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
   if (solution.defect.defect != McvDefect::kNone) {
     return solution;
   }
-  McvCircuit circuit = make_circuit(machine, input);
+  Work work{kSearchSteps, kHalvingSteps};
+  McvCircuit circuit = make_circuit(machine, input, &work);
   const PolicyResult chosen = choose_with_reserve(circuit, policy, range);
+  allow_kept(&work);  // For what is told of the choice.
   if (!chosen.bounded) {
     give_up(chosen.iterations, solution);
     return solution;
@@ -208,8 +210,9 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
     look_at_standstill(circuit, solution);
     solution.status = solution.standstill.can_start ? SolveStatus::kOk : SolveStatus::kInfeasible;
   }
+  solution.steps = kSearchSteps + kHalvingSteps - work.left - work.kept;
   // Numbers that no machine has, though each is in its range, can still end outside of all ranges.
-  if (!finite(solution)) {
+  if (work.is_spent() || !finite(solution)) {
     give_up(chosen.iterations, solution);
   }
   return solution;

@@ -36,6 +36,7 @@ struct McvSolution {
   McvMargins margins;     ///< At the lambda returned; at lambda 0 those of (43).
   Standstill standstill;  ///< Looked at only where lambda is 0.
   int iterations = 0;
+  int steps = 0;    ///< Of kSearchSteps and kHalvingSteps.
   McvCheck defect;  ///< Set with kBadInput.
 };
 

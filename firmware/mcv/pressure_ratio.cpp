@@ -83,7 +83,7 @@ Tangent inverse_lambda(const FlowBalance& line, const Stretch& stretch, double r
   double y = near ? least : under_root(flow, h.value, linear, quadratic);
   // The quadratic leakage only raises y, and what is left over of the balance is convex in y: from
   // below Newton rises onto the root and never passes it.
-  for (int step = 0; step < kRatioSteps && quadratic > 0.0; ++step) {
+  for (int step = 0; step < kRatioSteps && quadratic > 0.0 && may_step(line.work); ++step) {
     const double per_y = 1.0 / y;
     const double leak = quadratic * per_y * per_y * per_y;
     const double missing = h.value + linear * per_y + leak - flow * y;

@@ -106,6 +106,9 @@ PumpPressure solve_pump_pressure(const FlowBalance& balance, double lambda, doub
   const double relief = balance.has_relief ? balance.sqrt_relief : kInfinity;
   double s = std::min(guess < kInfinity ? guess : upper_bound(balance, left_at_zero), relief);
   for (int step = 0; step < kPressureSteps && !result.converged; ++step) {
+    if (!may_step(balance.work)) {
+      return result;
+    }
     const Residual at = residual(balance, lambda, s);
     const double fall = at.left_m3ps / at.slope;
     result.converged =

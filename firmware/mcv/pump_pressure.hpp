@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "firmware/mcv/mcv_machine.hpp"
+#include "firmware/mcv/work.hpp"
 
 namespace graben {
 
@@ -36,6 +37,8 @@ struct FlowBalance {
   /// The pump, where its regulator sets its swash: what stands above is then the most that it
   /// gives. Null: what it is told.
   const McvPump* regulated = nullptr;
+  /// Where a search on the line takes its steps from; null: none may be made.
+  Work* work = nullptr;
 };
 
 /// Remainder of the balance at s; strictly decreasing in s.

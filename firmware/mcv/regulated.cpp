@@ -49,7 +49,7 @@ PumpPressure by_bypass(const FlowBalance& line, double lambda) {
 }
 
 /// Least sqrt(P) from `from` up at which the axis has its margin's force.
-double held_sqrt_pressure(const CircuitAxis& axis, double lambda, double from) {
+double held_sqrt_pressure(const CircuitAxis& axis, double lambda, double from, Work* work) {
   if (drive_force(axis, lambda, from).force_n >= axis.margin_force_n) {
     return from;
   }
@@ -63,7 +63,7 @@ double held_sqrt_pressure(const CircuitAxis& axis, double lambda, double from) {
   // Under what shuts the check valve the gallery gives way.
   double low = from;
   double high = shut;
-  for (int n = 0; n < kHalvings; ++n) {
+  for (int n = 0; n < kHalvings && may_step(work); ++n) {
     const double middle = 0.5 * (low + high);
     const bool holds = drive_force(axis, lambda, middle).force_n >= axis.margin_force_n;
     (holds ? high : low) = middle;
@@ -81,7 +81,7 @@ PumpPressure by_load(const McvCircuit& circuit, unsigned pump, double lambda) {
   for (unsigned i = 0; i < circuit.axis_count; ++i) {
     const CircuitAxis& axis = circuit.axis[i];
     if (axis.moves && axis.pump == pump) {
-      wanted = held_sqrt_pressure(axis, lambda, wanted);
+      wanted = held_sqrt_pressure(axis, lambda, wanted, line.work);
     }
   }
   if (line.regeneration_count > 0) {
@@ -151,7 +151,7 @@ double settled_sqrt_pressure(const McvCircuit& circuit, unsigned pump, double la
   }
   double low = 0.0;
   double high = closed;
-  for (int n = 0; n < kHalvings; ++n) {
+  for (int n = 0; n < kHalvings && may_step(line.work); ++n) {
     const double middle = 0.5 * (low + high);
     (is_below(circuit, pump, lambda, middle, line) ? low : high) = middle;
   }

@@ -103,8 +103,9 @@ class StretchSearch {
     double looked_to = change.ratio;
     double nudge = 4.440892098500626e-16;
     Lengths at = lengths(requirement_, line_, stretch_, change.ratio, 0.0);
+    // Each of the lengths below is paid for by itself: they are the dearest of a round.
     while (change.ratio != end) {
-      if (++change.steps > most_steps_) {
+      if (++change.steps > most_steps_ || !may_step(line_.work)) {
         change.bounded = false;
         return;
       }
@@ -131,6 +132,10 @@ class StretchSearch {
           looked_to = ratio_at(at.inverse_lambda.value * kFirstChordSpan, change.ratio);
           reach = looked_to > change.ratio ? std::min(left, looked_to - change.ratio) : left;
         }
+        if (!may_step(line_.work)) {
+          change.bounded = false;
+          return;
+        }
         free = free_by_chord(at, gap, change.ratio, std::min({newton, left, reach}));
         reach = free.reach;
       }
@@ -149,6 +154,10 @@ class StretchSearch {
         change.found = share < kLastChordShare;
       }
       if (change.found) {
+        return;
+      }
+      if (!may_step(line_.work)) {
+        change.bounded = false;
         return;
       }
       at = free.whole ? free.there : lengths_from(at, ratio, change.ratio);
@@ -238,7 +247,10 @@ Change first_change(const Requirement& requirement, const FlowBalance& line, Tow
     const Stretch stretch =
         slower ? stretch_right_of(line, change.ratio) : stretch_left_of(line, change.ratio);
     const double stretch_end = slower ? std::min(stretch.high, end) : std::max(stretch.low, end);
-    StretchSearch(requirement, line, towards, stretch).run(change, stretch_end);
+    change.bounded = may_step(line.work);
+    if (change.bounded) {
+      StretchSearch(requirement, line, towards, stretch).run(change, stretch_end);
+    }
   }
   return change;
 }

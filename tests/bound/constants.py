@@ -5,7 +5,8 @@
 
 A row says by `of` where its count comes from: "FILE: EXPRESSION", the expression of whole numbers and constants that
 the file, or one that it reads, has as `constexpr`. A count below the largest of them is red: the bound would be too
-low, and nobody would see it. So is a row of constants without `of`, and a constant that is not there.
+low, and nobody would see it. So is a row of constants without `of`, and a constant that is not there. A fact of
+facts.toml beside them whose number is a constant is held the same way.
 """
 
 import argparse
@@ -99,6 +100,13 @@ def problems_of(row, source):
             yield f"{name}: where {word} is, `of` does not say"
 
 
+def facts_beside(file):
+    """Those with a constant, as rows."""
+    facts = file.with_name("facts.toml")
+    found = tomllib.loads(facts.read_text(encoding="utf-8"))["fact"] if facts.exists() else []
+    return [{"function": fact["calls"], "count": fact["at_most"], "of": [fact["of"]]} for fact in found if "of" in fact]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--source", required=True)
@@ -106,7 +114,7 @@ def main():
     parser.add_argument("--rows", default=pathlib.Path(__file__).resolve().parent / "loops.toml", type=pathlib.Path)
     arguments = parser.parse_args()
     source = Source([arguments.source, *arguments.generated])
-    rows = tomllib.loads(arguments.rows.read_text(encoding="utf-8"))["loop"]
+    rows = tomllib.loads(arguments.rows.read_text(encoding="utf-8"))["loop"] + facts_beside(arguments.rows)
     problems = [problem for row in rows for problem in problems_of(row, source)]
     for problem in problems:
         print(f"constants: {problem}")

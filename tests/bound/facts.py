@@ -5,12 +5,18 @@
     within = "regular expression"   # of the function in one call of which it holds
     calls = "regular expression"    # of functions that are called there, by itself or further down
     at_most = 3                     # so often, in one call of `within`
+    of = "file.hpp: kConstant"      # optional: that number, by name (constants.py)
+    price = 200                     # optional: instructions, see below
     group = "laws"                  # optional: of the facts of a group only one is true at a time
     because = "why"
     proof = "the assertion that is in the fuzzed image, file:name"
 
 The instructions of such a function are left out wherever it is called, and its bound is added at the end as
 often as it may be called.
+
+A `price` is for a function whose calls are counted in all and not by loop, as of `spend` by `Work`: each call
+lowers the cost of the path by the price, and the price is added for all the calls that there may be. Whatever
+the price, no path costs more than that; the best one is where one round of the dearest loop is paid by its calls.
 """
 
 import dataclasses
@@ -54,8 +60,10 @@ class Facts:
                 found.append(Fact(row, entries))
         return found
 
-    @staticmethod
-    def added(program, facts, outer):
+    def price(self, word):
+        return max((row.get("price", 0) for row in self.rows if re.search(row["calls"], word)), default=0)
+
+    def added(self, program, facts, outer):
         """[(times, Summary)] of what was left out: of a group the dearest."""
         every = outer | {at for fact in facts for at in fact.entries}
         groups = {}
@@ -66,5 +74,7 @@ class Facts:
             if any(one.open for one in ones):
                 raise Refusal(f"facts.toml: {fact.row['calls']}: has no bound by itself")
             dearest = max(ones, key=lambda one: one.bound)
+            price = self.price(program.image.word(dearest.entry))
+            dearest = dataclasses.replace(dearest, bound=dearest.bound + price)
             groups.setdefault(fact.row.get("group", id(fact)), []).append((fact.row["at_most"], dearest))
         return [max(ones, key=lambda one: one[0] * one[1].bound) for ones in groups.values()]

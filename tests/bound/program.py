@@ -175,7 +175,8 @@ class Program:
                     for to in self.targets(entry, ones[instruction.address], instruction.address):
                         one = self.of(to, known, cut - {to})
                         if to in cut:
-                            one = dataclasses.replace(one, bound=0, open=set(), vague=False)
+                            paid = self.facts.price(self.image.word(to))
+                            one = dataclasses.replace(one, bound=-paid, open=set(), vague=False)
                         summaries.append(one)
                     summaries.sort(key=lambda one: -one.bound)
                     cost[at] += summaries[0].bound

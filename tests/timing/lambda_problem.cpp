@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/timing/lambda_problem.hpp"
+#include "tests/fuzz/endless_work.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +92,7 @@ void add_lengths(Curvature& sum, const CircuitAxis& axis, const Gallery& gallery
 }  // namespace
 
 LambdaProblem::LambdaProblem(const McvMachine& machine, const McvInput& input)
-    : circuit_(make_circuit(machine, input)) {
+    : circuit_(make_circuit(machine, input, test::endless_work())) {
   PerPump<unsigned> column{};
   PerPump<bool> used{};
   for (unsigned i = 0; i < circuit_.axis_count; ++i) {

@@ -83,6 +83,9 @@ double PreparedPoint::sqrt_line(double flow_factor, double speed_mps) const {
     line.regeneration[static_cast<std::size_t>(line.regeneration_count++)] = {
         out_m3ps, axis_.c_drain, axis_.c_check, out_m3ps / axis_.c_drain};
   }
+  // Many more than it takes: kPressureSteps end it.
+  Work work{1000};
+  line.work = &work;
   const PumpPressure solved = solve_pump_pressure(line, 1.0);
   return solved.fed ? solved.sqrt_pressure : 0.0;
 }

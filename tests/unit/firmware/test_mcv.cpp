@@ -6,6 +6,7 @@
 #include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/optimiser.hpp"
 #include "firmware/mcv/pump_pressure.hpp"
+#include "tests/fuzz/endless_work.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 
@@ -42,6 +43,7 @@ TEST(return_gallery_balances) {
 
 /// Without regeneration and leakage the balance is a straight line: s = (flow - demand) / c_by.
 TEST(pump_pressure_in_closed_form, FlowBalance balance) {
+  balance.work = test::endless_work();
   balance.flow_m3ps = 2e-3;
   balance.in_flow_m3ps = 5e-4;
   balance.least_flow_m3ps = 5e-4;
@@ -69,6 +71,7 @@ TEST(pump_pressure_always_converges) {
   int most_steps = 0;
   for (int n = 0; n < 20000; ++n) {
     FlowBalance balance;
+    balance.work = test::endless_work();
     balance.flow_m3ps = draw(1e-5, 1e-1);
     balance.leak_linear = n % 3 == 0 ? 0.0 : draw(1e-13, 1e-10);
     balance.leak_quadratic = n % 5 == 0 ? 0.0 : draw(1e-21, 1e-17);
@@ -133,8 +136,11 @@ TEST(a_starved_pump_scales_all_axes) {
   assert_int_equal(solution.status, SolveStatus::kOk);
   assert_true(solution.point.lambda > 0.0 && solution.point.lambda < 1.0);
   assert_int_not_equal(solution.limit.kind, LimitKind::kNone);
-  assert_true(evaluate(make_circuit(machine, input), solution.point.lambda).feasible);
-  assert_false(evaluate(make_circuit(machine, input), solution.point.lambda + 1e-7).feasible);
+  assert_true(
+      evaluate(make_circuit(machine, input, test::endless_work()), solution.point.lambda).feasible);
+  assert_false(
+      evaluate(make_circuit(machine, input, test::endless_work()), solution.point.lambda + 1e-7)
+          .feasible);
   assert_near(solution.point.spool_m[kArm], 0.0, 0.0);
 }
 

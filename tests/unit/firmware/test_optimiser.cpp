@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "firmware/mcv/optimiser.hpp"
+#include "tests/fuzz/endless_work.hpp"
 #include "tests/fuzz/plain_circuit.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/split.hpp"
@@ -25,7 +26,7 @@ double lambda_of(const McvInput& input, McvPolicy policy, const LambdaRange& ran
 
 bool feasible(const McvInput& input, double lambda) {
   const McvMachine machine = kim();
-  return evaluate(make_circuit(machine, input), lambda).feasible;
+  return evaluate(make_circuit(machine, input, test::endless_work()), lambda).feasible;
 }
 
 /// Over the gap, at its lower end, and Algorithm 1 wherever its halving led it.
@@ -110,7 +111,8 @@ TEST(standstill_says_who_lacks_what) {
     const McvActuator& boom = machine.actuator[kBoom];
     const double load_n = boom.area_cap_m2 * 60e6 - boom.area_rod_m2 * 1e6;
     const PumpPressure line = solve_pump_pressure(
-        make_circuit(machine, input).line[static_cast<unsigned>(boom.pump)], 0.0);
+        make_circuit(machine, input, test::endless_work()).line[static_cast<unsigned>(boom.pump)],
+        0.0);
     const double drive_n = boom.area_cap_m2 * line.sqrt_pressure * line.sqrt_pressure;
     assert_near(solution.standstill.short_n, load_n + boom.force_offset_n - drive_n, 1e-3);
     assert_true(solution.standstill.short_n > 1e4);
@@ -126,8 +128,9 @@ TEST(shortfall_is_the_margin_at_full_speed) {
   const McvMachine machine = kim();
   const McvSolution solution = solve_mcv(machine, input, McvPolicy::kGlobal);
   assert_int_equal(solution.limit.kind, LimitKind::kBackFlow);
-  const CircuitAxis axis = make_circuit(machine, input).axis[kBucket];
-  const PumpPressure line = solve_pump_pressure(make_circuit(machine, input).line[axis.pump], 1.0);
+  const CircuitAxis axis = make_circuit(machine, input, test::endless_work()).axis[kBucket];
+  const PumpPressure line =
+      solve_pump_pressure(make_circuit(machine, input, test::endless_work()).line[axis.pump], 1.0);
   const double lacking_n = axis.force_offset_n - drive_force(axis, 1.0, line.sqrt_pressure).force_n;
   assert_near(solution.shortfall, lacking_n, 1e-6);
   assert_true(solution.shortfall > 0.0);

@@ -5,6 +5,7 @@
 
 #include "firmware/mcv/evaluation.hpp"
 #include "firmware/mcv/requirement.hpp"
+#include "tests/fuzz/endless_work.hpp"
 #include "tests/fuzz/plain_circuit.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/rounds.hpp"
@@ -16,7 +17,7 @@ template <class Use>
 void for_random_circuits(Use use) {
   for (std::uint64_t seed = 0; seed < kCases; ++seed) {
     const test::RandomCase problem = test::random_case(seed);
-    use(make_circuit(problem.machine, problem.input));
+    use(make_circuit(problem.machine, problem.input, test::endless_work()));
   }
 }
 

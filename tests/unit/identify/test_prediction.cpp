@@ -13,6 +13,7 @@
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/evaluation.hpp"
+#include "tests/fuzz/endless_work.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/refusal.hpp"
 
@@ -54,7 +55,7 @@ TEST(speeds_are_those_that_need_these_openings) {
     for (std::size_t j = 0; j < kPumpCount; ++j) {
       input.pump_flow_m3ps[j] = pump_flow_m3ps(machine().pump[j], kEngine_radps, now.swash[j]);
     }
-    const McvCircuit circuit = make_circuit(valve, input);
+    const McvCircuit circuit = make_circuit(valve, input, test::endless_work());
     McvPoint point = evaluate(circuit, 1.0);
     open_spools(circuit, point);
     for (std::size_t k = 0; k < kAxisCount; ++k) {

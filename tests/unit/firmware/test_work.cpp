@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Steps that a solve's searches take from one count.
+#include "firmware/mcv/work.hpp"
+
+#include <algorithm>
+
+#include "firmware/mcv/optimiser.hpp"
+#include "firmware/mcv/policies.hpp"
+#include "firmware/mcv/tuning.hpp"
+#include "tests/fuzz/endless_work.hpp"
+#include "tests/fuzz/plain_circuit.hpp"
+#include "tests/unit/cmocka_cpp.hpp"
+
+TEST(a_step_is_taken_once) {
+  assert_false(may_step(nullptr));
+  allow_kept(nullptr);
+  Work work{1, 2};
+  assert_false(work.is_spent());
+  assert_true(may_step(&work));
+  assert_false(may_step(&work));
+  assert_int_equal(work.left, 0);
+  assert_false(work.is_spent());
+  allow_kept(&work);
+  assert_int_equal(work.left, 2);
+  assert_true(may_step(&work) && may_step(&work));
+  assert_true(work.is_spent());
+  allow_kept(&work);
+  assert_true(work.is_spent());
+}
+
+/// Of whole numbers that a defect could leave, too.
+TEST(less_than_none_is_none) {
+  Work work{-1, 0};
+  assert_false(may_step(&work));
+  assert_true(work.is_spent());
+  assert_true(Work({0, -1}).is_spent());
+  assert_false(Work({0, 1}).is_spent());
+  assert_false(Work({1, 0}).is_spent());
+}
+
+using Choose = PolicyResult (*)(const Asked&);
+constexpr Choose kChoices[] = {choose_global, choose_connected, choose_algorithm1};
+
+Asked plain(McvCircuit& circuit) {
+  Asked asked{circuit};
+  for (unsigned i = 0; i < circuit.axis_count; ++i) {
+    asked.rising_n[i] = asked.holding_n[i] = circuit.axis[i].load_force_n;
+  }
+  return asked;
+}
+
+/// However few steps there are: a point that holds, or none, and then it is said.
+TEST(whoever_runs_out_of_steps_says_so) {
+  int ran_out = 0;
+  int ended = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const test::RandomCase problem = test::random_case(seed);
+    for (const Choose choose : kChoices) {
+      for (const int steps : {0, 1, 2, 5, 11, 23, 47, 95, 191}) {
+        Work work{steps, steps / 2};
+        McvCircuit circuit = make_circuit(problem.machine, problem.input, &work);
+        const PolicyResult found = choose(plain(circuit));
+        assert_true(work.left >= 0);
+        if (!found.bounded || work.is_spent()) {
+          ++ran_out;
+          continue;
+        }
+        ++ended;
+        McvCircuit again = make_circuit(problem.machine, problem.input, test::endless_work());
+        if (found.point.lambda > 0.0) {
+          assert_true(evaluate(again, found.point.lambda).feasible);
+        }
+      }
+    }
+  }
+  assert_true(ran_out > 1000);
+  assert_true(ended > 1000);
+}
+
+/// A controller's solve never comes to it: not on wild circuits of an excavator's size.
+TEST(there_are_enough_steps) {
+  int most = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    const test::RandomCase problem = test::random_case(seed);
+    for (const McvPolicy policy :
+         {McvPolicy::kGlobal, McvPolicy::kConnected, McvPolicy::kAlgorithm1}) {
+      const McvSolution solution = solve_mcv(problem.machine, problem.input, policy);
+      assert_int_not_equal(solution.status, SolveStatus::kNotConverged);
+      most = std::max(most, solution.steps);
+    }
+  }
+  assert_in_range(most, kSearchSteps / 2, kSearchSteps + kHalvingSteps);
+}
