@@ -2,6 +2,7 @@
 #include "firmware/excavator/fences/fence.hpp"
 
 #include <limits>
+#include <random>
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
@@ -254,4 +255,33 @@ TEST(a_design_lies_where_the_ground_was_felt, FenceSet fences) {
   assert_true(factor(0.0) > 0.0);
   assert_near(factor(0.01) / factor(0.0), (0.02 + 5e-5) / (0.03 + 5e-5), 5e-3);
   assert_true(factor(-0.01) > factor(0.0));
+}
+
+/// As many keep-outs as there may be, about the bucket: each part is looked at against each of
+/// them, and one that moves into the nearest is held by it.
+TEST(eight_keep_outs) {
+  const DriveVector then(0.475, 0.565, 0.4375, 0.0);
+  const Eigen::Vector3d teeth_m = machine().teeth(then).position_m;
+  std::mt19937 random(5);
+  const auto within = [&random](double least, double most) {
+    return least + (most - least) * static_cast<double>(random() % 1000U) / 1000.0;
+  };
+  int held = 0;
+  for (int n = 0; n < 200; ++n) {
+    FenceSet fences;
+    fences.count = kFenceMost;
+    for (Fence& fence : fences.fence) {
+      fence.shape = n % 2 == 0 ? FenceShape::kBox : FenceShape::kCylinder;
+      fence.guard = FenceGuard::kMachine;
+      fence.centre_m =
+          teeth_m + Eigen::Vector3d(within(-4.0, 1.0), within(-1.0, 1.0), within(-1.0, 2.0));
+      fence.half_m = {within(0.2, 1.0), within(0.2, 1.0), within(0.2, 1.0)};
+      fence.normal = Eigen::Vector3d::UnitX();
+    }
+    const VelocityCap by = cap(then, {0.1, -0.1, 0.1, 0.3}, fences);
+    assert_true(by.factor >= 0.0 && by.factor <= 1.0);
+    assert_true(by.limit.kind != LimitKind::kFence || by.limit.index < kFenceMost);
+    held += by.limit.kind == LimitKind::kFence && by.factor < 1.0 ? 1 : 0;
+  }
+  assert_true(held > 50);
 }
