@@ -57,7 +57,7 @@ struct LinkAngle {
   /// What the gyro's rate has changed more than the force says that the link was turned, lately.
   double jumps_radps = 0.0;
   double jumped_radps = 0.0;  ///< The same, low-passed: what shakes goes to and fro.
-  double shaken = 0.0;  ///< Mean square of the force that the gyro does not explain, (m/s2)^2.
+  double shaken = 0.0;       ///< Mean square of the force that the gyro does not explain, (m/s2)^2.
   double jump_held_s = 0.0;  ///< How long yet a jump that was seen counts; 0: none was.
 
   /// Rate and its derivative are known either side.

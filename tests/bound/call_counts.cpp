@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How often functions are called in one call of others, at most, for the facts of `facts.toml`. The
-/// compiler calls in here wherever the core's functions begin and end (GRABEN_COUNT_CALLS).
+/// How often functions are called in one call of others, at most, for the facts of `facts.toml`.
+/// The compiler calls in here wherever the core's functions begin and end (GRABEN_COUNT_CALLS).
 ///
 /// GRABEN_FACTS names a file of `N within ADDRESS` and `N calls ADDRESS`, addresses in hex; at the
-/// end a line `N TIMES IN` for each N goes to the file that GRABEN_FACT_COUNTS names: the most calls
-/// in one call of `within`, and how many calls of it there were. held_facts.py writes and reads both.
+/// end a line `N TIMES IN` for each N goes to the file that GRABEN_FACT_COUNTS names: the most
+/// calls in one call of `within`, and how many calls of it there were. held_facts.py writes and
+/// reads both.
 
 #include <array>
 #include <cstdint>
