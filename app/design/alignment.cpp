@@ -37,6 +37,10 @@ class Alignment {
     if (!geometry) {
       xml_.refuse(alignment, "has no <CoordGeom>");
     }
+    const pugi::xml_node second = geometry.next_sibling("CoordGeom");
+    if (second && second.first_child()) {
+      xml_.refuse(second, "is the alignment's second one; allowed: one");
+    }
     std::vector<Element> elements = elements_of(geometry);
     if (elements.empty()) {
       xml_.refuse(geometry, "has no element; allowed: <Line>, <Curve>");

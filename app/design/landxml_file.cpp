@@ -185,6 +185,13 @@ void LandXmlFile::read_unit() {
                                "kilometer, foot, USSurveyFoot, inch, mile",
                                system.attribute("linearUnit").value()));
   }
+  const pugi::xml_node second =
+      system.next_sibling() ? system.next_sibling() : units.next_sibling("Units").first_child();
+  const pugi::xml_attribute other = second.attribute("linearUnit");
+  if (other && metres_of(other.value()) != metres_) {
+    refuse(second, fmt::format("says another unit of length than <{}> before it; allowed: one",
+                               system.name()));
+  }
 }
 
 pugi::xml_node LandXmlFile::chosen(const char* group, const char* element, const std::string& name,

@@ -156,6 +156,11 @@ TEST(an_equation_leaves_no_station_to_a_guess) {
   assert_true(has(refusal(words, {"way", {101.0, 109.0}}), "staStart=\"1+00\"; allowed: a number"));
 }
 
+TEST(two_geometries_are_refused) {
+  const std::string two = file_of(kLine + "</CoordGeom><CoordGeom>" + kLine);
+  assert_true(has(refusal(two), "<CoordGeom>: is the alignment's second one; allowed: one"));
+}
+
 /// A file whose axes or turns are mirrored has arcs that go round the other way than they say.
 TEST(points_and_numbers_beside_them_are_the_same) {
   const auto curve = [](const std::string& more) {
