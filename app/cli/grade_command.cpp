@@ -140,8 +140,10 @@ void grade(const GradeCommand& told) {
   }
   const std::string missed = runs::out_of_tolerance(summary, machine.profile.grade.tolerance_m);
   if (is_constant && !missed.empty()) {
-    // Asked for: what a speed without the controller's bound costs.
-    fmt::print("{}\n", missed);
+    fmt::print(
+        "{}; status 0 all the same: --speed-mode constant leaves out the controller's bound "
+        "of speed, to show what that costs\n",
+        missed);
   } else if (!missed.empty()) {
     throw std::runtime_error(missed);
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -74,20 +75,91 @@ std::vector<double> numbers_of(const machines::ProfileQuestion& question, std::s
   return numbers;
 }
 
+/// Standard input: an answer a line in the order of asking, or, where its first line is
+/// "KEY = ANSWER", by their keys, in any order: which questions come depends on answers before.
+class AnswerLines {
+ public:
+  /// Throws std::runtime_error for an input that has nothing in it, not even empty lines: that is
+  /// no wish to keep everything.
+  AnswerLines() {
+    if (is_person()) {
+      return;
+    }
+    if (std::cin.peek() == std::istream::traits_type::eof()) {
+      throw std::runtime_error(
+          "no answers: standard input is empty; a line for each question is wanted, an empty one "
+          "keeps its value");
+    }
+    std::string line;
+    while (std::getline(std::cin, line)) {
+      line_.push_back(line);
+    }
+    is_named_ = line_.front().find('=') != std::string::npos;
+    for (std::size_t i = 0; is_named_ && i < line_.size(); ++i) {
+      take_named(line_[i]);
+    }
+  }
+
+  [[nodiscard]] static bool is_person() { return isatty(STDIN_FILENO) != 0; }
+
+  /// None at the input's end, or where the key is not there.
+  std::optional<std::string> next(const std::string& key) {
+    std::string line;
+    if (is_person()) {
+      return std::getline(std::cin, line) ? std::optional(line) : std::nullopt;
+    }
+    if (is_named_) {
+      const auto found = named_.find(key);
+      return found == named_.end() ? std::nullopt : std::optional(named_.extract(found).mapped());
+    }
+    return at_ < line_.size() ? std::optional(line_[at_++]) : std::nullopt;
+  }
+
+  void assert_used() const {
+    if (!named_.empty()) {
+      throw std::runtime_error(fmt::format(
+          "{}: is not asked of such a machine, or a slip of the pen", named_.begin()->first));
+    }
+  }
+
+ private:
+  void take_named(const std::string& line) {
+    const auto trimmed = [](const std::string& text) {
+      const std::size_t begin = text.find_first_not_of(" \t\r");
+      return begin == std::string::npos
+                 ? std::string()
+                 : text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
+    };
+    const std::size_t equals = line.find('=');
+    if (equals != std::string::npos) {
+      named_[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+    } else if (!trimmed(line).empty()) {
+      throw std::runtime_error(
+          fmt::format("'{}': KEY = ANSWER is wanted, as in the first line", trimmed(line)));
+    }
+  }
+
+  std::vector<std::string> line_;
+  std::size_t at_ = 0;
+  bool is_named_ = false;
+  std::map<std::string, std::string> named_;
+};
+
 /// None where the line is empty: what was before stays. A person is asked again, a file is not: its
 /// next line is another answer.
 std::optional<std::vector<double>> ask(const machines::ProfileQuestion& question,
                                        const machines::ProfileDocument& like,
-                                       const machines::ProfileAnswers& answers) {
+                                       const machines::ProfileAnswers& answers,
+                                       AnswerLines& lines) {
   while (true) {
     fmt::print("{}: {}, {} [{}]: ", question.key, question.text, question.unit.name,
                numbers_text(question.before));
     std::fflush(stdout);
-    std::string line;
-    if (!std::getline(std::cin, line) || line.find_first_not_of(" \t\r") == std::string::npos) {
-      if (isatty(STDIN_FILENO) == 0 || std::cin.eof()) {
-        fmt::print("\n");
-      }
+    const std::string line = lines.next(question.key).value_or("");
+    if (!AnswerLines::is_person() || std::cin.eof()) {
+      fmt::print("{}\n", line);
+    }
+    if (line.find_first_not_of(" \t\r") == std::string::npos) {
       return std::nullopt;
     }
     try {
@@ -95,20 +167,11 @@ std::optional<std::vector<double>> ask(const machines::ProfileQuestion& question
       machines::assert_fits(like, question, numbers, answers);
       return numbers;
     } catch (const std::runtime_error& error) {
-      if (isatty(STDIN_FILENO) == 0) {
+      if (!AnswerLines::is_person()) {
         throw std::runtime_error(fmt::format("{}: {}", question.key, error.what()));
       }
       fmt::print("  {}\n", error.what());
     }
-  }
-}
-
-/// An input that has nothing in it, not even empty lines, is no wish to keep everything.
-void assert_answers_come() {
-  if (isatty(STDIN_FILENO) == 0 && std::cin.peek() == std::istream::traits_type::eof()) {
-    throw std::runtime_error(
-        "no answers: standard input is empty; a line for each question is wanted, an empty one "
-        "keeps its value");
   }
 }
 
@@ -127,21 +190,22 @@ void new_machine(const NewMachine& options) {
   }
   const machines::ProfileDocument after =
       machines::read_document(machines::find_profile(options.like));
-  assert_answers_come();
+  AnswerLines lines;
   assert_writable(file);
   fmt::print("Empty lines keep the value in brackets, {}'s.\n", after.file.stem().string());
   machines::ProfileAnswers answers;
   for (const machines::ProfileQuestion& question : machines::sheet_questions(after)) {
-    if (const auto answer = ask(question, after, answers)) {
+    if (const auto answer = ask(question, after, answers, lines)) {
       answers[question.key] = *answer;
     }
   }
   const machines::ProfileDocument like = machines::with_structure(after, answers);
   for (const machines::ProfileQuestion& question : machines::profile_questions(like)) {
-    if (const auto answer = ask(question, like, answers)) {
+    if (const auto answer = ask(question, like, answers, lines)) {
       answers[question.key] = *answer;
     }
   }
+  lines.assert_used();
   const std::string text = machines::new_profile_text(like, file.stem().string(), answers);
   write_whole(file, text);
   fmt::print("profile {}\n", options.out);

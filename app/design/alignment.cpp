@@ -9,6 +9,7 @@
 
 #include "app/design/landxml_file.hpp"
 #include "app/design/plan_track.hpp"
+#include "app/design/station_count.hpp"
 #include "firmware/numeric/constants.hpp"
 
 namespace graben::design {
@@ -35,6 +36,10 @@ class Alignment {
     const pugi::xml_node geometry = alignment.child("CoordGeom");
     if (!geometry) {
       xml_.refuse(alignment, "has no <CoordGeom>");
+    }
+    const pugi::xml_node second = geometry.next_sibling("CoordGeom");
+    if (second && second.first_child()) {
+      xml_.refuse(second, "is the alignment's second one; allowed: one");
     }
     std::vector<Element> elements = elements_of(geometry);
     if (elements.empty()) {
@@ -223,25 +228,16 @@ class Alignment {
     if (source_.stations_m.empty()) {
       return {0.0, std::numeric_limits<double>::infinity()};
     }
-    if (const pugi::xml_node equation = alignment.child("StaEquation")) {
-      xml_.refuse(equation,
-                  "its stations are counted anew on the way; allowed with --stations: an "
-                  "alignment without station equations");
-    }
-    const pugi::xml_attribute start = alignment.attribute("staStart");
-    if (start && !said(alignment, "staStart")) {
-      xml_.refuse(alignment, fmt::format("staStart=\"{}\"; allowed: a number", start.value()));
-    }
-    const double start_m = said(alignment, "staStart").value_or(0.0);
-    const double from_m = source_.stations_m[0] - start_m;
-    const double to_m = source_.stations_m[1] - start_m;
     const Element& last = elements.back();
     const double length_m =
         last.begin_m + last.length_m.value_or(std::numeric_limits<double>::infinity());
-    if (!(from_m >= -kShortest_m && to_m > from_m && to_m <= length_m + kShortest_m)) {
-      xml_.refuse(alignment, fmt::format("stations {} .. {} m; allowed: rising, {:.3f} .. {:.3f} m",
-                                         source_.stations_m[0], source_.stations_m[1], start_m,
-                                         start_m + length_m));
+    const StationCount count(xml_, alignment, length_m);
+    const double from_m = count.distance_m(source_.stations_m[0]);
+    const double to_m = count.distance_m(source_.stations_m[1]);
+    if (!(to_m > from_m)) {
+      xml_.refuse(alignment,
+                  fmt::format("stations {} .. {} m; allowed: along its way, {}",
+                              source_.stations_m[0], source_.stations_m[1], count.stretches()));
     }
     return {from_m, to_m};
   }

@@ -34,6 +34,9 @@ class LandXmlSurface {
     if (!definition) {
       xml_.refuse(surface, "has no <Definition>; allowed: surfType=\"TIN\"");
     }
+    if (const pugi::xml_node second = definition.next_sibling("Definition")) {
+      xml_.refuse(second, "is the surface's second one; allowed: one");
+    }
     const std::string_view type = definition.attribute("surfType").value();
     if (type != "TIN") {
       xml_.refuse(definition, fmt::format("surfType=\"{}\"; allowed: TIN", type));

@@ -144,7 +144,9 @@ std::size_t LandXmlFile::line_at(std::ptrdiff_t offset) const {
 
 std::string LandXmlFile::place(const pugi::xml_node& node) const {
   std::string mark;
-  for (const char* name : {"name", "id"}) {
+  // Faces know a point by its id, whatever it is called.
+  const bool by_id = std::string_view(node.name()) == "P";
+  for (const char* name : {by_id ? "id" : "name", by_id ? "name" : "id"}) {
     if (const pugi::xml_attribute attribute = node.attribute(name)) {
       mark = fmt::format(" {}=\"{}\"", name, attribute.value());
       break;
@@ -182,6 +184,13 @@ void LandXmlFile::read_unit() {
     refuse(system, fmt::format("linearUnit=\"{}\"; allowed: meter, millimeter, centimeter, "
                                "kilometer, foot, USSurveyFoot, inch, mile",
                                system.attribute("linearUnit").value()));
+  }
+  const pugi::xml_node second =
+      system.next_sibling() ? system.next_sibling() : units.next_sibling("Units").first_child();
+  const pugi::xml_attribute other = second.attribute("linearUnit");
+  if (other && metres_of(other.value()) != metres_) {
+    refuse(second, fmt::format("says another unit of length than <{}> before it; allowed: one",
+                               system.name()));
   }
 }
 

@@ -16,8 +16,12 @@ namespace graben::design {
 /// The words of an element, between blanks; one more than `most` ends it.
 [[nodiscard]] std::vector<std::string_view> words_of(const char* text, std::size_t most);
 
+/// As XML Schema writes numbers: a plus may stand before one.
 template <class Number>
 [[nodiscard]] std::optional<Number> number_of(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') {
+    word.remove_prefix(1);
+  }
   Number number{};
   const char* const end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, number);

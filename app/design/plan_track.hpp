@@ -50,7 +50,7 @@ struct AlignmentSource {
 /// An alignment of a LandXML file: <Line> and <Curve>. It is cut to the stations, then judged.
 /// Throws as read_landxml: for any other element of its geometry there, for one that does not go on
 /// where and as the one before ended or whose length or radius is another than its points make, for
-/// stations that it does not have or that a station equation counts anew.
+/// stations that it does not have, or has twice by its station equations (StationCount).
 [[nodiscard]] PlanTrack read_alignment(const std::filesystem::path& file,
                                        const AlignmentSource& source);
 

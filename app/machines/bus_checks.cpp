@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "can_dbc/codec.hpp"
@@ -62,8 +61,24 @@ bool is_engines(const BusTable& table, std::uint32_t id) {
   return is_named_by(dbc::common::EEC1::kId, id) && table.has_engine;
 }
 
+/// A message of this file: what its id says, whether of 29 bits, and its bus.
+struct Seen {
+  std::uint32_t identity = 0;
+  bool extended = true;
+  std::uint8_t bus = kAnyBus;
+
+  [[nodiscard]] bool is(const Seen& other) const {
+    return other.identity == identity && other.extended == extended &&
+           (bus == kAnyBus || other.bus == kAnyBus || other.bus == bus);
+  }
+};
+
 void check_ids(TomlReader& reader, const BusTable& table) {
-  const auto is_own = [](std::uint32_t named) {
+  // All of ours are of 29 bits.
+  const auto is_own = [](std::uint32_t named, bool extended) {
+    if (!extended) {
+      return false;
+    }
     const auto is_it = [named](std::uint32_t id) { return is_named_by(id, named); };
     const auto taken = ExcavatorReceiver::ids();
     const auto sent = ExcavatorTransmitter::ids();
@@ -74,34 +89,33 @@ void check_ids(TomlReader& reader, const BusTable& table) {
     reader.fail(key,
                 fmt::format("its id 0x{:X} is that of {}; allowed: one of its own", id, whose));
   };
-  std::vector<std::pair<std::uint32_t, std::uint8_t>> seen;  // With their bus.
-  const auto is_seen = [&](std::uint32_t id, std::uint8_t bus) {
-    return std::any_of(seen.begin(), seen.end(), [&](const auto& other) {
-      return other.first == id &&
-             (bus == kAnyBus || other.second == kAnyBus || other.second == bus);
-    });
+  std::vector<Seen> seen;
+  const auto is_seen = [&](const Seen& it) {
+    return std::any_of(seen.begin(), seen.end(), [&](const Seen& other) { return it.is(other); });
   };
   for (std::size_t i = 0; i < table.message_count; ++i) {
     const std::uint32_t id = table.rule[i].id;
-    if (is_own(id) && !is_engines(table, id)) {
+    const bool extended = table.rule[i].extended;
+    if (is_own(id, extended) && !is_engines(table, id)) {
       refuse(fmt::format("receive[{}]", i), id, "a message of our own bus");
     }
-    seen.emplace_back(identity_of(id), table.message[i].bus);
+    seen.push_back({identity_of(id), extended, table.message[i].bus});
   }
   for (std::size_t i = 0; i < table.send_count; ++i) {
     const std::uint32_t id = table.send[i].rule.id;
+    const Seen sent{identity_of(id), table.send[i].extended, table.send[i].bus};
     const std::string key = fmt::format("send[{}]", i);
-    if (is_own(id)) {
+    if (is_own(id, sent.extended)) {
       refuse(key, id, "a message of our own bus");
-    } else if (table.send[i].extended && is_of_any_source(id)) {
+    } else if (sent.extended && is_of_any_source(id)) {
       reader.fail(key,
                   fmt::format("its id 0x{:X} has source FE, which is nobody's; allowed: an `id` "
                               "with the source that the valves listen to",
                               id));
-    } else if (is_seen(identity_of(id), table.send[i].bus)) {
+    } else if (is_seen(sent)) {
       refuse(key, id, "another message of this file");
     }
-    seen.emplace_back(identity_of(id), table.send[i].bus);
+    seen.push_back(sent);
   }
 }
 

@@ -111,7 +111,8 @@ void check_received(TomlReader& reader, const BusTable& table, std::size_t messa
     const std::uint8_t bus = table.message[i].bus;
     const std::uint8_t own = table.message[message].bus;
     const bool apart = bus != kAnyBus && own != kAnyBus && bus != own;
-    if (same_message(table.rule[i].id, table.rule[message].id) && !apart) {
+    const bool alike = table.rule[i].extended == table.rule[message].extended;
+    if (alike && same_message(table.rule[i].id, table.rule[message].id) && !apart) {
       reader.fail(key, "its id is that of another message, whatever its priority");
     }
   }

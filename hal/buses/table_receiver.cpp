@@ -98,13 +98,14 @@ int TableReceiver::received(const CanFrame& frame) const {
   for (std::size_t i = 0; i < table_->message_count; ++i) {
     const std::uint8_t bus = table_->message[i].bus;
     const MessageRule& rule = table_->rule[i];
-    if (bus != kAnyBus && frame.bus != kAnyBus && bus != frame.bus) {
+    const bool elsewhere = bus != kAnyBus && frame.bus != kAnyBus && bus != frame.bus;
+    if (elsewhere || rule.extended != frame.extended) {
       continue;
     }
     if (same_message(rule.id, frame.id)) {
       return static_cast<int>(i);
     }
-    if (rule.extended && frame.extended && is_named_by(frame.id, rule.id)) {
+    if (rule.extended && is_named_by(frame.id, rule.id)) {
       found = static_cast<int>(i);
     }
   }

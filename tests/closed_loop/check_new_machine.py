@@ -132,6 +132,21 @@ def from_a_data_sheet(graben, folder):
     assert profile["pump"][0]["kind"] == "load_sensing" and "swing" not in profile["valve"], profile["valve"]
 
 
+def by_name(graben, folder):
+    """Answers by their keys, in any order: a second pump's among them, which an answer before brings."""
+    told = ["pump[1].relief = 343", "operating_weight = 14", "", "pump_count = 2", "bucket.capacity=0.6"]
+    done = make(graben, folder, "excavator_12t", told, "--force")
+    assert done.returncode == 0, done.stderr
+    profile = tomllib.loads((folder / "mine.toml").read_text(encoding="utf-8"))
+    assert profile["pump"][1]["relief"] == 343e5 and profile["bucket"]["capacity"] == 0.6, profile["pump"]
+    assert profile["body"]["boom_foot"] == [0.14, 1.424], profile["body"]
+    assert "\npump_count: " in done.stdout and "[1]: 2\n" in done.stdout, done.stdout[:500]
+    for answers, needle in ((["pump_count = 1", "pump[1].relief = 343"], "pump[1].relief: is not asked of such a machine"),
+                            (["pump_count = 1", "343"], "'343': KEY = ANSWER is wanted")):
+        done = make(graben, folder, "excavator_12t", answers, "--force")
+        assert done.returncode == 1 and needle in done.stderr, done.stderr
+
+
 def new_folder(graben, folder):
     done = make(graben, folder, "excavator_22t", [], "--out", "a/new/other.toml")
     assert done.returncode == 0 and (folder / "a/new/other.toml").exists(), done.stderr
@@ -175,6 +190,7 @@ def main():
         units(graben, folder, unchanged(graben, folder, "excavator_12t"))
         like_another(graben, folder)
         from_a_data_sheet(graben, folder)
+        by_name(graben, folder)
         new_folder(graben, folder)
         refusals(graben, folder)
     print("a new machine is asked for and written")

@@ -85,8 +85,8 @@ std::vector<std::string> LogRead::notes() const {
                     plural(lost, "frame was", "frames were")));
   }
   if (broken > 0) {
-    say(fmt::format("{} of candump's, left out; the first is line {}",
-                    plural(broken, "line is none", "lines are none"), first_broken));
+    say(fmt::format("{} of {}'s, left out; the first is line {}",
+                    plural(broken, "line is none", "lines are none"), format, first_broken));
   }
   if (is_cut) {
     say("its last line is cut, and left out");
@@ -132,6 +132,8 @@ class Reading {
   ~Reading() = default;
   Reading(const Reading&) = delete;
   Reading& operator=(const Reading&) = delete;
+
+  void name_format(const char* format) { read_.format = format; }
 
   void take(std::size_t number, const CandumpLine& line) {
     whole_ += line.kind == LineKind::kLost ? 0 : 1;
@@ -185,6 +187,7 @@ std::string begin_of(const std::filesystem::path& file) {
 
 LogRead read_binary(const std::filesystem::path& file, Reading& reading) {
   const std::string bytes = machines::file_text(file, machines::kWantedLog);
+  reading.name_format("BLF");
   Sha256 digest;
   digest.add(bytes);
   const std::string wrong = read_blf(
@@ -219,6 +222,7 @@ LogRead read_candump(const std::filesystem::path& file,
     }
     if (!text) {
       text.emplace(line);
+      reading.name_format(text->format());
     }
     const CandumpLine got = text->parse(line);
     if (got.kind == LineKind::kBroken) {

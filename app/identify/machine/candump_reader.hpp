@@ -26,8 +26,9 @@ struct LoggedFrame {
 
 /// What was in a log beside the frames that were handed on.
 struct LogRead {
-  std::string name;    ///< Of the file, as it was told.
-  std::string sha256;  ///< Of its content as it is read (unpacked), hexadecimal.
+  std::string name;                ///< Of the file, as it was told.
+  std::string sha256;              ///< Of its content as it is read (unpacked), hexadecimal.
+  std::string format = "candump";  ///< Whose lines it has: candump, ASC, TRC, BLF.
   std::size_t frames = 0;
   std::size_t other = 0;   ///< Lines of frames that no machine of ours sends.
   std::size_t broken = 0;  ///< Lines that are none, but for a last one that is cut.

@@ -24,6 +24,10 @@ class LogText {
   explicit LogText(std::string_view first_line);
 
   [[nodiscard]] bool is_candump() const { return kind_ == Kind::kCandump; }
+  /// "candump", "ASC" or "TRC".
+  [[nodiscard]] const char* format() const {
+    return is_candump() ? "candump" : (kind_ == Kind::kAsc ? "ASC" : "TRC");
+  }
   [[nodiscard]] CandumpLine parse(std::string_view line);
 
  private:

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "app/machines/new/swing_drive.hpp"
 #include "app/machines/profile_file.hpp"
 
 namespace graben::machines {
@@ -15,14 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kKinds[] = {"", "_ls", "_nfc"};
-/// The shipped machine whose pump drives a swing motor, and its weight.
-constexpr const char* kWithSwing = "excavator_12t";
-constexpr double kWithSwing_t = 12.0;
-
-const toml::table* table_at(const toml::table& root, const std::string& path) {
-  return root.at_path(path).as_table();
-}
-
 int pump_count(const ProfileDocument& like) {
   const toml::array* pumps = like.root["pump"].as_array();
   return pumps == nullptr ? 0 : static_cast<int>(pumps->size());
@@ -31,10 +24,6 @@ int pump_count(const ProfileDocument& like) {
 int pump_kind(const ProfileDocument& like) {
   const std::string kind = like.root.at_path("pump[0].kind").value_or(std::string("positive"));
   return kind == "load_sensing" ? 1 : kind == "negative_flow" ? 2 : 0;
-}
-
-bool has_swing(const ProfileDocument& like) {
-  return like.root.at_path("valve.pump.swing").node() != nullptr;
 }
 
 /// By its name, as excavator_22t; else by its links, which are a sixth of it.
@@ -63,27 +52,13 @@ int told(const ProfileAnswers& answers, const char* key, int otherwise) {
   return found == answers.end() ? otherwise : static_cast<int>(std::lround(found->second.front()));
 }
 
-void scale(toml::table& table, const char* key, double factor) {
-  toml::node* node = table.get(key);
-  if (node == nullptr) {
-    return;
-  }
-  if (toml::array* array = node->as_array()) {
-    for (toml::node& entry : *array) {
-      entry.as_floating_point()->get() *= factor;
-    }
-  } else if (toml::value<double>* number = node->as_floating_point()) {
-    number->get() *= factor;
-  }
-}
-
 /// The same flow of all of them, by another number.
 void set_pump_count(toml::table& root, int count) {
   toml::array& pumps = *root["pump"].as_array();
   const double factor = static_cast<double>(pumps.size()) / count;
   toml::table pump = *pumps.get(0)->as_table();
   for (const char* key : {"displacement", "leak_linear", "leak_quadratic", "bypass_series"}) {
-    scale(pump, key, factor);
+    scale_values(pump, key, factor);
   }
   pumps.clear();
   for (int i = 0; i < count; ++i) {
@@ -95,79 +70,7 @@ void set_pump_count(toml::table& root, int count) {
     *number.as_integer() = is_first || count == 1 ? 1 : 2;
   }
   if (toml::table* bypass = root.at_path("valve.bypass").as_table()) {
-    scale(*bypass, "open", factor);
-  }
-}
-
-/// What a table lacks of another's keys whose name begins with swing.
-void take_swing_keys(const toml::table& from, toml::table& into) {
-  for (auto&& [key, node] : from) {
-    if (std::string(key.str()).rfind("swing", 0) == 0 && !into.contains(key.str())) {
-      node.visit([&, name = key.str()](const auto& value) { into.insert(name, value); });
-    }
-  }
-}
-
-void take_table(const toml::table& from, toml::table& into) {
-  for (auto&& [key, node] : from) {
-    if (!into.contains(key.str())) {
-      node.visit([&, name = key.str()](const auto& value) { into.insert(name, value); });
-    }
-  }
-}
-
-/// By the machines' weights: torque and what turns grow faster than areas and flows.
-void add_swing(toml::table& root, double weights) {
-  const ProfileDocument other = read_document(find_profile(kWithSwing));
-  const toml::table& from = other.root;
-  toml::table swing = *table_at(from, "swing");
-  scale(swing, "displacement", weights);
-  scale(swing, "inertia", std::pow(weights, 5.0 / 3.0));
-  take_table(swing, *root["swing"].as_table());
-  for (const char* section : {"control", "safety"}) {
-    take_swing_keys(*table_at(from, section), *root[section].as_table());
-  }
-  toml::table& valve = *root["valve"].as_table();
-  toml::array areas = *from.at_path("valve.swing").as_array();
-  for (toml::node& area : areas) {
-    area.as_floating_point()->get() *= weights;
-  }
-  valve.insert_or_assign("swing", areas);
-  valve["pump"].as_table()->insert_or_assign("swing", 1);
-  if (toml::table* closed = root.at_path("valve.bypass.closed").as_table()) {
-    closed->insert_or_assign("swing", closed->get("boom")->value_or(5.6e-7));
-  }
-}
-
-void remove_swing(toml::table& root) {
-  for (const char* key : {"displacement", "inertia", "lever", "range"}) {
-    root["swing"].as_table()->erase(key);
-  }
-  for (const char* section : {"control", "safety"}) {
-    toml::table& table = *root[section].as_table();
-    for (auto it = table.begin(); it != table.end();) {
-      const bool is_swings = std::string(it->first.str()).rfind("swing", 0) == 0;
-      it = is_swings ? table.erase(it) : ++it;
-    }
-  }
-  root["valve"].as_table()->erase("swing");
-  for (const char* path : {"valve.pump", "valve.bypass.closed"}) {
-    if (toml::table* table = root.at_path(path).as_table()) {
-      table->erase("swing");
-    }
-  }
-}
-
-/// The experiment's line before a machine that can't swing, as far out as it was.
-void lay_straight(toml::table& root) {
-  for (const char* end : {"experiment.line.from.position", "experiment.line.to.position"}) {
-    toml::array* at = root.at_path(end).as_array();
-    if (at == nullptr || at->size() != 3) {
-      continue;
-    }
-    const double out_m = std::hypot(at->get(0)->value_or(0.0), at->get(1)->value_or(0.0));
-    at->get(0)->as_floating_point()->get() = out_m;
-    at->get(1)->as_floating_point()->get() = 0.0;
+    scale_values(*bypass, "open", factor);
   }
 }
 
@@ -245,7 +148,7 @@ ProfileDocument with_structure(const ProfileDocument& like, const ProfileAnswers
   const int count = told(answers, kPumpCountKey, pump_count(made));
   const bool swings = told(answers, kSwingKey, has_swing(made) ? 1 : 0) == 1;
   if (swings && !has_swing(made)) {
-    add_swing(made.root, weight_t(like) / kWithSwing_t);
+    add_swing(made.root, weight_t(like));
   } else if (!swings && has_swing(made)) {
     remove_swing(made.root);
   }
@@ -267,26 +170,13 @@ std::optional<ProfileDocument> simulation_of(const ProfileDocument& like,
   if (made.root.contains("machine")) {
     return std::nullopt;
   }
-  if (profile_kind(like) == MachineKind::kDozer || has_swing(structured) == has_swing(like)) {
-    return made;
+  if (profile_kind(like) == MachineKind::kExcavator && has_swing(structured) != has_swing(like)) {
+    if (has_swing(structured)) {
+      add_simulated_swing(made.root, weight_t(like));
+    } else {
+      remove_simulated_swing(made.root);
+    }
   }
-  toml::table& sensors = *made.root["sensors"].as_table();
-  if (!has_swing(structured)) {
-    made.root.erase("swing");
-    sensors.erase("swing_resolution");
-    sensors.erase("swing_bias");
-    lay_straight(made.root);
-    return made;
-  }
-  const double weights = weight_t(like) / kWithSwing_t;
-  const ProfileDocument other = read_document(simulation_file(find_profile(kWithSwing)));
-  toml::table swing = *table_at(other.root, "swing");
-  scale(swing, "inertia", std::pow(weights, 5.0 / 3.0));
-  for (const char* key : {"coulomb", "viscous", "dead_volume", "leak"}) {
-    scale(swing, key, weights);
-  }
-  made.root.insert_or_assign("swing", swing);
-  take_swing_keys(*table_at(other.root, "sensors"), sensors);
   return made;
 }
 

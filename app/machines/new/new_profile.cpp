@@ -46,6 +46,7 @@ const std::vector<const char*> kAskedOfExcavator = {"body.boom_foot",
                                                     "arm.cylinder.eye",
                                                     "bucket.length",
                                                     "bucket.width",
+                                                    "bucket.capacity",
                                                     "bucket.cylinder.bore",
                                                     "bucket.cylinder.rod",
                                                     "bucket.cylinder.closed_length",
@@ -91,7 +92,8 @@ const std::vector<const char*> kAskedOfDozer = {"body.mass_centre_height",
 
 const std::map<std::string, WorkshopUnit> kUnits = {
     {"m", {"mm", 1e-3}},  {"rad", {"deg", kPi / 180.0}},  {"rad/s", {"rpm", kPi / 30.0}},
-    {"Pa", {"bar", 1e5}}, {"m3/s", {"L/min", 1.0 / 6e4}}, {"m3/rev", {"cm3/rev", 1e-6}}};
+    {"Pa", {"bar", 1e5}}, {"m3/s", {"L/min", 1.0 / 6e4}}, {"m3/rev", {"cm3/rev", 1e-6}},
+    {"m3", {"m3", 1.0}}};
 
 std::vector<double> numbers_of(const toml::node& node) {
   std::vector<double> numbers;

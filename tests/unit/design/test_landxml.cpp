@@ -105,6 +105,21 @@ TEST(all_groups_are_looked_through) {
   assert_int_equal(read(two, "state=proposed").face.size(), 2);
 }
 
+/// Neither is the first of two taken.
+TEST(two_of_what_is_there_once_are_refused) {
+  std::string twice = file_of(kMetres, surface("a", kPoints, kFaces));
+  twice.replace(twice.find("</Definition>"), 13, "</Definition><Definition surfType=\"TIN\"/>");
+  assert_true(has(refusal(twice), "<Definition>: is the surface's second one; allowed: one"));
+  const auto with = [](const std::string& units) {
+    return refusal(file_of("<Units>" + units + "</Units>", surface("a", kPoints, kFaces)));
+  };
+  const std::string metre = "<Metric linearUnit=\"meter\"/>";
+  const std::string foot = "<Imperial linearUnit=\"foot\"/>";
+  assert_true(has(with(metre + foot), "<Imperial>: says another unit of length than <Metric>"));
+  assert_true(has(with(metre + "</Units><Units>" + foot), "<Imperial>: says another unit"));
+  assert_string_equal(with(metre + metre + "<Feature/>").c_str(), "");
+}
+
 TEST(names_that_say_nothing_take_a_number) {
   const std::string twice =
       file_of(kMetres, surface("FG", kPoints, "<F>1 2 7</F>\n") + surface("FG", kPoints, kFaces));

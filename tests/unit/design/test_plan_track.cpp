@@ -63,7 +63,7 @@ TEST(a_part_of_it_is_taken_by_its_stations) {
   assert_near(part.length_m(), 7.0, 1e-9);
   assert_at(part, 0.0, 5.0, 0.0, 0.0);
   const std::string beyond = refusal(file_of(kLine), {"way", {99.0, 112.0}});
-  assert_true(has(beyond, "stations 99 .. 112 m; allowed: rising, 100.000 .. 110.000 m"));
+  assert_true(has(beyond, "station 99 m is not there; allowed: 100.000 .. 110.000 m"));
   assert_true(has(refusal(file_of(kLine), {"away", {}}), "alignment 'away' is there 0 times"));
 }
 
@@ -103,16 +103,62 @@ TEST(only_what_the_stations_use_is_judged) {
   assert_true(has(refusal(file_of(kLine + chain + kNorth), {"way", {111.0, 112.0}}), "<Chain>"));
 }
 
-TEST(stations_that_are_counted_anew_are_refused) {
-  const std::string equation =
-      "</CoordGeom><StaEquation staAhead=\"500\" staBack=\"105\"/>\n<CoordGeom>";
-  const std::string text = file_of(kLine + equation);
-  assert_true(
-      has(refusal(text, {"way", {101.0, 109.0}}), "<StaEquation>: its stations are counted anew"));
+std::string counted_anew(const std::string& equations) {
+  return file_of(kLine + "</CoordGeom>" + equations + "\n<CoordGeom>");
+}
+
+TEST(stations_are_counted_anew_at_an_equation) {
+  // 100 .. 105 before it, 500 .. 505 behind.
+  const std::string text =
+      counted_anew("<StaEquation staAhead=\"500\" staBack=\"105\" staInternal=\"105\"/>");
+  const design::PlanTrack over = read(text, {"way", {101.0, 503.0}});
+  assert_near(over.length_m(), 7.0, 1e-9);
+  assert_at(over, 0.0, 1.0, 0.0, 0.0);
+  assert_at(read(text, {"way", {501.0, 504.0}}), 0.0, 6.0, 0.0, 0.0);
+  // The equation's place has both numbers.
+  assert_near(read(text, {"way", {105.0, 500.5}}).length_m(), 0.5, 1e-9);
+  assert_near(read(text, {"way", {104.0, 500.0}}).length_m(), 1.0, 1e-9);
   assert_near(read(text).length_m(), 10.0, 1e-9);
+  assert_true(has(refusal(text, {"way", {101.0, 109.0}}),
+                  "station 109 m is not there; allowed: 100.000 .. 105.000, 500.000 .. 505.000 m"));
+  assert_true(has(refusal(text, {"way", {501.0, 103.0}}), "stations 501 .. 103 m; allowed: along"));
+  // Without staInternal by staBack; stations that fall; two of them.
+  assert_near(
+      read(counted_anew("<StaEquation staAhead=\"500\" staBack=\"105\"/>"), {"way", {501.0, 504.0}})
+          .length_m(),
+      3.0, 1e-9);
+  const std::string falls = counted_anew(
+      "<StaEquation staAhead=\"90\" staInternal=\"104\" staIncrement=\"decreasing\"/>"
+      "<StaEquation staAhead=\"7\" staBack=\"88\" staInternal=\"106\"/>");
+  assert_at(read(falls, {"way", {89.0, 8.0}}), 0.0, 5.0, 0.0, 0.0);
+  assert_near(read(falls, {"way", {89.0, 8.0}}).length_m(), 2.0, 1e-9);
+}
+
+TEST(an_equation_leaves_no_station_to_a_guess) {
+  const auto says = [](const std::string& equation, const char* what) {
+    const std::string error =
+        refusal(counted_anew("<StaEquation " + equation + "/>"), {"way", {104.0, 105.5}});
+    if (!has(error, what)) {
+      fail_msg("no \"%s\" in: %s", what, error.c_str());
+    }
+  };
+  says("staAhead=\"103\" staInternal=\"105\"",
+       "station 104 m is there 2 times, 4.000 and 6.000 m from its begin");
+  says("staAhead=\"103\" staInternal=\"112\"",
+       "<StaEquation>: lies 12.000 m from the alignment's begin");
+  says("staAhead=\"500\" staBack=\"104\" staInternal=\"105\"",
+       "staBack 104.000 m, where 105.000 m is counted to there");
+  says("staAhead=\"5+00\" staInternal=\"105\"", "staAhead=\"5+00\"; allowed: a number");
+  says("staInternal=\"105\"", "needs staAhead");
+  says("staAhead=\"500\" staInternal=\"105\" staIncrement=\"up\"", "staIncrement=\"up\"");
   std::string words = file_of(kLine);
   words.replace(words.find("=\"100\""), 6, "=\"1+00\"");
   assert_true(has(refusal(words, {"way", {101.0, 109.0}}), "staStart=\"1+00\"; allowed: a number"));
+}
+
+TEST(two_geometries_are_refused) {
+  const std::string two = file_of(kLine + "</CoordGeom><CoordGeom>" + kLine);
+  assert_true(has(refusal(two), "<CoordGeom>: is the alignment's second one; allowed: one"));
 }
 
 /// A file whose axes or turns are mirrored has arcs that go round the other way than they say.

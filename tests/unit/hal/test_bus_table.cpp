@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "can_dbc/generated/excavator_dbc.hpp"
 #include "hal/buses/excavator_bus.hpp"
@@ -207,6 +208,38 @@ TEST(source_fe_is_any_sender_unless_one_is_named) {
   frame.id = made.rule[1].id;
   both.accept(frame, kNow);
   assert_true(both.inputs().joint_rad[0].validity == Validity::kNotReceived);
+}
+
+/// 0x18000123 of 29 bits and 0x123 of 11 have the same low 26: two messages, on one bus.
+TEST(an_id_of_11_bits_is_none_of_29) {
+  for (const bool extended : {true, false}) {
+    BusTable made = table();
+    made.rule[0].id = extended ? 0x18000123U : 0x123U;
+    made.rule[0].extended = extended;
+    CanFrame frame;
+    frame.length = 8;
+    put_raw({0, 16, false, false}, 25000, frame.data);
+    const auto hears = [&](BusTable& of, bool long_id) {
+      ExcavatorReceiver receiver{with_table({}, &of)};
+      frame.extended = long_id;
+      frame.id = long_id ? 0x18000123U : 0x123U;
+      receiver.accept(frame, kNow);
+      const Validity angle = receiver.inputs().joint_rad[0].validity;
+      return std::pair(angle == Validity::kValid, static_cast<int>(receiver.foreign()));
+    };
+    assert_true(hears(made, extended) == std::pair(true, 0));
+    assert_true(hears(made, !extended) == std::pair(false, 1));
+    // Nor does a message of the one kind stand before that of the other.
+    made.rule[1] = made.rule[0];
+    made.message[1] = made.message[0];
+    made.message[1].first = 1;
+    made.rule[0].extended = !extended;
+    made.rule[0].id = extended ? 0x123U : 0x18000123U;
+    std::swap(made.message[0].first, made.message[1].first);
+    std::swap(made.message[0].count, made.message[1].count);
+    made.message[1].count = 1;
+    assert_true(hears(made, extended) == std::pair(true, 0));
+  }
 }
 
 TEST(the_machines_own_frames_of_ours_are_foreign, Bus bus) {

@@ -56,7 +56,7 @@ TEST(asc_is_read) {
                    "   0.005000 1  ErrorFrame\n   0.005000 2  291  Rx   d 2   1   2\n"));
   assert_true(
       has(read("a.asc", begin + " 0.1 1 12Gx Rx d 1 00\n 0.2 1 123 Rx d 1 00\n").read.notes()[0],
-          "1 line is none of candump's"));
+          "1 line is none of ASC's, left out; the first is line 2"));
 }
 
 TEST(trc_is_read) {

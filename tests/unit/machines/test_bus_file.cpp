@@ -63,6 +63,14 @@ TEST(errors_name_message_signal_and_line) {
   assert_says(two + on("a") + kSignal + on("a") + kSignal, {"its id is that of another message"});
   const std::string pressure = with(kSignal, "engine_speed\"", "cap_pressure\"\nof = \"boom\"");
   assert_false(has(refusal(two + on("a") + kSignal + on("b") + pressure), "its id is that"));
+  // An id of 29 bits with the same low ones is another one, received or sent.
+  const std::string longer = with(kMessage, "id = 0x123\nextended = false", "id = 0x18000123");
+  const std::string sent =
+      "[[send]]\nmessage = \"Valve\"\nid = 0x18000123\nperiod = 0.02\n"
+      "protection = \"none\"\n";
+  assert_false(has(refusal(whole + longer + pressure), "its id "));
+  assert_false(has(refusal(whole + sent), "its id 0x"));
+  assert_says(kHead + longer + kSignal + sent, {"id 0x18000123 is that of another message"});
   assert_says("bus = \"test\"\n" + kMessage + kSignal,
               {"nothing says a stroke, joint_angle", "nothing takes the boom's duty"});
 }
