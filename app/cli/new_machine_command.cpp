@@ -120,6 +120,13 @@ class AnswerLines {
       throw std::runtime_error(fmt::format(
           "{}: is not asked of such a machine, or a slip of the pen", named_.begin()->first));
     }
+    for (std::size_t i = at_; !is_named_ && i < line_.size(); ++i) {
+      if (line_[i].find_first_not_of(" \t\r") != std::string::npos) {
+        throw std::runtime_error(fmt::format(
+            "'{}', line {}: more answers than questions; answers by KEY = ANSWER come in any order",
+            line_[i], i + 1));
+      }
+    }
   }
 
  private:
@@ -132,7 +139,10 @@ class AnswerLines {
     };
     const std::size_t equals = line.find('=');
     if (equals != std::string::npos) {
-      named_[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+      const std::string key = trimmed(line.substr(0, equals));
+      if (!named_.emplace(key, trimmed(line.substr(equals + 1))).second) {
+        throw std::runtime_error(fmt::format("{}: is answered twice", key));
+      }
     } else if (!trimmed(line).empty()) {
       throw std::runtime_error(
           fmt::format("'{}': KEY = ANSWER is wanted, as in the first line", trimmed(line)));

@@ -185,12 +185,14 @@ void LandXmlFile::read_unit() {
                                "kilometer, foot, USSurveyFoot, inch, mile",
                                system.attribute("linearUnit").value()));
   }
-  const pugi::xml_node second =
-      system.next_sibling() ? system.next_sibling() : units.next_sibling("Units").first_child();
-  const pugi::xml_attribute other = second.attribute("linearUnit");
-  if (other && metres_of(other.value()) != metres_) {
-    refuse(second, fmt::format("says another unit of length than <{}> before it; allowed: one",
-                               system.name()));
+  for (const pugi::xml_node& group : root().children("Units")) {
+    for (const pugi::xml_node& other : group.children()) {
+      const pugi::xml_attribute unit = other.attribute("linearUnit");
+      if (unit && metres_of(unit.value()) != metres_) {
+        refuse(other, fmt::format("says another unit of length than <{}> before it; allowed: one",
+                                  system.name()));
+      }
+    }
   }
 }
 

@@ -46,6 +46,7 @@ struct McvCircuit {
 };
 
 /// For a machine and an input that passed their checks. The circuit points into the machine.
+/// Its searches take their steps from `work`; without one none may be made.
 [[nodiscard]] McvCircuit make_circuit(const McvMachine& machine, const McvInput& input,
                                       Work* work = nullptr);
 

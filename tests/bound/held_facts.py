@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Facts of facts.toml against what fuzzed cycles do: how often a fact's functions are called in one call of `within`,
-counted in a build with GRABEN_COUNT_CALLS (call_counts.cpp). Red where one is called more often than its fact says, and
-where a fact's `within` never ran: nothing was counted of it.
+counted in a build with GRABEN_COUNT_CALLS (call_counts.cpp). Red where one is called more often than its fact says, where
+a fact's `within` never ran, and where none of its functions was called though some may be: nothing was counted of it.
 
     held_facts.py [--facts FILE] [--show] PROGRAM [ARGUMENT...] [-- PROGRAM ...]
 """
@@ -84,6 +84,8 @@ def main():
             print(f"{what}: {times} of {row['at_most']}, in {calls} calls")
         if calls == 0:
             wrong.append(f"{what}: never ran, nothing was counted")
+        elif times == 0 and row["at_most"] > 0:
+            wrong.append(f"{what}: never called, nothing was counted")
         elif times > row["at_most"]:
             wrong.append(f"{what}: {times} times, and the fact says at most {row['at_most']}")
     for line in wrong:

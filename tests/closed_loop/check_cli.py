@@ -191,6 +191,9 @@ def no_constant_speed(graben):
                 "--errors", "all", "--seed", "1")
     assert done.returncode == 1 and "no constant speed" in done.stderr, done.stderr
     assert "0.05" in done.stdout and "0.07" in done.stdout, done.stdout
+    # Out of tolerance is what this mode is for, and it says so.
+    done = call(graben, "grade", "--speed-mode", "constant")
+    assert done.returncode == 0 and "cut below it" in done.stdout and "status 0 all the same" in done.stdout, done.stdout
 
 
 def unwritable(graben):

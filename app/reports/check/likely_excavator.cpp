@@ -15,11 +15,6 @@ namespace {
 
 using machines::kAxisNames;
 
-struct Band {
-  double least;
-  double most;
-};
-
 std::array<double, kAxisCount> lengths_m(const ExcavatorGeometry& geometry) {
   return {geometry.boom_length_m, geometry.arm_length_m, geometry.bucket_length_m};
 }

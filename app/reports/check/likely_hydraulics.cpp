@@ -15,11 +15,6 @@ namespace {
 using machines::kAxisNames;
 using machines::kDriveNames;
 
-struct Band {
-  double least;
-  double most;
-};
-
 /// How far the links out level weigh on the boom cylinders, and what each is by itself.
 void expect_oil_masses(Warnings& warnings, const ExcavatorProfile& profile) {
   constexpr std::array<Band, kAxisCount> kUsual_kgpm3 = {

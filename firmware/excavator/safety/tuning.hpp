@@ -24,7 +24,7 @@ inline constexpr double kSupplyOpenBeyond = 0.05;
 /// Share of the asked speed below which a drive stands. [-; chosen: not tried]
 inline constexpr double kSupplyStandsShare = 0.3;
 /// Share of it below which a drive whose side has no pressure is unfed. [-; chosen: one that goes
-/// on at all is fed, if by less than its valve's model says; 0.3 tried, 2 of 5500 sound draws on
+/// on at all is fed, if by less than its valve's model says; 0.3 tried, 2 of 5200 sound draws on
 /// the 12 t were stopped at 0.18 and 0.33 of what was asked]
 inline constexpr double kSupplyStarvedShare = 0.1;
 /// Asked speed from which a drive is looked at. [m/s; chosen: not tried]

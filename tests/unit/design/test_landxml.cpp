@@ -117,6 +117,7 @@ TEST(two_of_what_is_there_once_are_refused) {
   const std::string foot = "<Imperial linearUnit=\"foot\"/>";
   assert_true(has(with(metre + foot), "<Imperial>: says another unit of length than <Metric>"));
   assert_true(has(with(metre + "</Units><Units>" + foot), "<Imperial>: says another unit"));
+  assert_true(has(with(metre + "<Feature/>" + metre + foot), "<Imperial>: says another unit"));
   assert_string_equal(with(metre + metre + "<Feature/>").c_str(), "");
 }
 
