@@ -8,6 +8,7 @@
     bound.py ... --judge TARGET.KIND --toml       writes what it finds into bounds.toml
     bound.py --table                              bounds.toml as a table, beside what was observed
     bound.py ... --path                           prints the dearest path
+    bound.py ... --counts FILE [--of MACHINE]     what any machine of its kind may have, and some have
 """
 
 import argparse
@@ -20,6 +21,7 @@ from aarch64 import AArch64
 from arm import Arm
 from facts import Facts
 from listing import Image, Refusal
+from machine import counts
 from program import Program
 from table import Table
 
@@ -100,6 +102,8 @@ def parse(words=None):
     parser.add_argument("--facts", default=HERE / "facts.toml", type=pathlib.Path)
     parser.add_argument("--source", default=HERE.parents[1])
     parser.add_argument("--root", default=r"BareEcu<.*>::step\(")
+    parser.add_argument("--counts", type=pathlib.Path)
+    parser.add_argument("--of", metavar="MACHINE", help="of those in --counts only this one")
     parser.add_argument("--loops", action="store_true")
     parser.add_argument("--path", action="store_true")
     parser.add_argument("--judge", metavar="TARGET.KIND")
@@ -116,31 +120,46 @@ def main():
         return []
     image = Image(options.tools, options.image)
     machine = machine_of(image)
-    table = Table(options.table if options.table.exists() else None, options.source)
-    facts = Facts(options.facts if options.facts.exists() else None)
-    program = Program(image, machine, options.calls, table, facts)
+    known = counts(options.counts) if options.counts else {"any": None}
+    problems, found, before = [], {}, None
+    for whose in [options.of] if options.of else known:
+        table = Table(options.table if options.table.exists() else None, options.source, known[whose])
+        facts = Facts(options.facts if options.facts.exists() else None, known[whose])
+        program = Program(image, machine, options.calls, table, facts, before)
+        before = program
+        print(f"{whose}:" if whose != "any" else "any machine:")
+        problems += look_at(options, program, found, whose)
+    if options.judge and not problems:
+        problems += bounds.judge(options.judge, found, options.toml)
+    return problems
+
+
+def look_at(options, program, found, whose):
     root = program.entry_of(options.root)
     graphs = reached(program, root)
-    table.prepare(image, graphs.values())
-    found = program.of(root)
+    program.table.prepare(program.image, graphs.values())
+    summary = program.of(root)
     print(f"{len(graphs)} functions, {sum(len(g.back_edges()) for g in graphs.values())} back edges, "
           f"{sum(len(g.loops) for g in graphs.values())} loops")
     if options.loops:
-        for (entry, known, _), summary in sorted(program.summaries.items()):
-            for loop in summary.loops:
-                graph = program.graphs[entry]
-                place = table.place(graph, graph.loops[loop.header])
-                print(f"{loop.count} {loop.how}: {place} {known or ''}")
-    problems = [f"{table.place(program.graphs[entry], program.graphs[entry].loops[header])}: "
-                "a loop without a count" for entry, header in sorted(found.open)]
-    if options.path and not problems:
-        print_path(image, found)
-    if not problems:
-        print(f"{found.bound} instructions, {found.stack} B of stack; {facts.assumed()} facts assumed")
-        print(counted(program, table, graphs))
-        if options.judge:
-            problems += bounds.judge(options.judge, found, stages(image, found), options.toml)
-    return problems
+        print_loops(program)
+    if summary.open:
+        return [f"{program.table.place(program.graphs[entry], program.graphs[entry].loops[header])}: "
+                "a loop without a count" for entry, header in sorted(summary.open)]
+    if options.path:
+        print_path(program.image, summary)
+    print(f"{summary.bound} instructions, {summary.stack} B of stack; {program.facts.assumed()} facts assumed")
+    print(counted(program, program.table, graphs))
+    found[whose] = (summary, stages(program.image, summary))
+    return []
+
+
+def print_loops(program):
+    for (entry, known, _), summary in sorted(program.summaries.items()):
+        for loop in summary.loops:
+            graph = program.graphs[entry]
+            place = program.table.place(graph, graph.loops[loop.header])
+            print(f"{loop.count} {loop.how}: {place} {known or ''}")
 
 
 if __name__ == "__main__":

@@ -8,6 +8,9 @@
     of = "file.hpp: kConstant"      # optional: that number, by name (constants.py)
     price = 200                     # optional: instructions, see below
     group = "laws"                  # optional: of the facts of a group only one is true at a time
+    machine = "keep_outs"           # optional: of an image's own machine so often that count of its setup (machine.py)
+    each = 5                        # optional: for each of those
+    only_with = "regulated_pumps"   # optional: the fact is of a machine without these; `at_most` is 0
     because = "why"
     proof = "the assertion that is in the fuzzed image, file:name"
 
@@ -24,6 +27,7 @@ import re
 import tomllib
 
 from listing import Refusal
+from machine import holds, of_machine
 
 NEEDED = {"within", "calls", "at_most", "because", "proof"}
 
@@ -35,7 +39,7 @@ class Fact:
 
 
 class Facts:
-    def __init__(self, file):
+    def __init__(self, file, machine=None):
         self.rows = []
         if file is not None:
             with open(file, "rb") as stream:
@@ -43,6 +47,10 @@ class Facts:
         for row in self.rows:
             if missing := NEEDED - set(row):
                 raise Refusal(f"{file}: a fact without {', '.join(sorted(missing))}")
+            if row["at_most"] != 0 and "only_with" in row:
+                raise Refusal(f"{file}: {row['calls']}: what a machine does not have is called 0 times")
+            row["at_most"] = of_machine(row, row["at_most"], machine)
+        self.rows = [row for row in self.rows if holds(row, machine)]
         self.used = set()
 
     def assumed(self):

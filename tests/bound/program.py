@@ -34,9 +34,11 @@ class Summary:
 
 
 class Program:
-    def __init__(self, image, machine, calls_file, table, facts):
+    def __init__(self, image, machine, calls_file, table, facts, before=None):
+        """`before`: another of the same image, whose graphs and registers are known already."""
         self.image, self.machine = image, machine
-        self.graphs, self.summaries, self.turns = {}, {}, {}
+        self.graphs, self.turns = (before.graphs, before.turns) if before else ({}, {})
+        self.summaries = {}
         with open(calls_file, "rb") as stream:
             self.listed = tomllib.load(stream)["call"]
         self.table = table

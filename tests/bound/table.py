@@ -6,7 +6,8 @@ A row says of which loops it is by two regular expressions: `function`, of the n
 proven, or where it `tightens` one. `count` is how often the loop's end is reached at most; of a row of
 `constants` the line's first group names the one that it is. Where a row is `per_call`, the count is that of all
 rounds in one call of the function, of whatever the compiler has made of the statement. Where it is
-`by_arguments`, the loop is looked at again for each call, as its count may follow from the arguments there.
+`by_arguments`, the loop is looked at again for each call, as its count may follow from the arguments there. Where a
+row has a `machine`, the loop goes over something that a machine has many or few of (machine.py).
 """
 
 import functools
@@ -15,10 +16,11 @@ import re
 import tomllib
 
 from listing import Refusal
+from machine import of_machine
 
 
 class Table:
-    def __init__(self, file, root):
+    def __init__(self, file, root, machine=None):
         self.root = pathlib.Path(root)
         self.rows = []
         if file is not None:
@@ -29,6 +31,7 @@ class Table:
                 row["count"] = max(row["constants"].values())
             if missing := {"function", "count", "keeps", "test"} - set(row):
                 raise Refusal(f"{file}: a row without {', '.join(sorted(missing))}")
+            row["count"] = of_machine(row, row["count"], machine)
         self.used = {}  # places by number of a row
         self.lines = {}  # [(function, file, line)] by address
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// write_constants setup|replay excavator|dozer: of a shipped machine what its controller is made
-/// of, or what a controller hears and says in a run of its simulation, as a C++ source of constant
-/// data.
+/// write_constants setup|replay|counts excavator|dozer: of a shipped machine what its controller is
+/// made of, or what a controller hears and says in a run of its simulation, as a C++ source of
+/// constant data; or how many it has of what a loop of the controller goes over, and how many any
+/// machine of its kind may have, as TOML (tests/bound/machine.py).
 
 #include <cstdio>
 #include <cstring>
@@ -12,6 +13,7 @@
 #include "app/machines/task_file.hpp"
 #include "app/runs/dozer_rig.hpp"
 #include "app/runs/excavator_rig.hpp"
+#include "tests/memory/machine_counts.hpp"
 #include "tests/memory/setup.hpp"
 
 namespace {
@@ -65,26 +67,42 @@ void write_replay(Bench& bench) {
   std::printf("  return {kFrames, sizeof kFrames / sizeof kFrames[0], %d};\n}\n\n}\n", cycle);
 }
 
-void write_excavator(bool with_replay) {
-  const auto machine = machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
-  const TaskBook book = machines::load_tasks(
-      {machines::find_task("truck_by_steps").string(), machines::find_task("flatten").string()}, {},
-      machine.profile);
-  if (with_replay) {
+machines::SimulatedExcavator of_12t() {
+  return machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
+}
+
+TaskBook tasks_of_12t(const ExcavatorProfile& profile) {
+  return machines::load_tasks({machines::find_task("truck_by_steps").string(),
+                               machines::find_task("flatten").string()},
+                              {}, profile);
+}
+
+void write_excavator(const std::string& what) {
+  const auto machine = of_12t();
+  const TaskBook book = tasks_of_12t(machine.profile);
+  if (what == "replay") {
     runs::AutodigRig bench(machine, book, book.program[0].start, 1.0);
     write_replay(bench);
-  } else {
+  } else if (what == "setup") {
     write_setup("ExcavatorSetup", ExcavatorSetup(machine.profile, book), machine.hash);
+  } else {
+    const auto other = machines::load_excavator(machines::find_profile("excavator_22t"));
+    memory::write_most(ExcavatorSetup(machine.profile));
+    memory::write_counts("12t", ExcavatorSetup(machine.profile, book));
+    memory::write_counts("22t", ExcavatorSetup(other.profile));
   }
 }
 
-void write_dozer(bool with_replay) {
+void write_dozer(const std::string& what) {
   const auto machine = machines::load_simulated_dozer(machines::find_profile("dozer_9t"));
-  if (with_replay) {
+  if (what == "replay") {
     runs::GradeRig bench(machine, 1.0);
     write_replay(bench);
-  } else {
+  } else if (what == "setup") {
     write_setup("DozerSetup", DozerSetup(machine.profile), machine.hash);
+  } else {
+    memory::write_most(DozerSetup(machine.profile));
+    memory::write_counts("dozer", DozerSetup(machine.profile));
   }
 }
 
@@ -93,12 +111,12 @@ void write_dozer(bool with_replay) {
 int main(int argc, char** argv) try {
   const std::string what = argc == 3 ? argv[1] : "";
   const std::string kind = argc == 3 ? argv[2] : "";
-  if ((what != "setup" && what != "replay") || (kind != "excavator" && kind != "dozer")) {
-    std::fprintf(stderr, "usage: write_constants setup|replay excavator|dozer\n");
+  if ((what != "setup" && what != "replay" && what != "counts") || (kind != "excavator" && kind != "dozer")) {
+    std::fprintf(stderr, "usage: write_constants setup|replay|counts excavator|dozer\n");
     return 2;
   }
-  std::printf("// Written by write_constants.\n");
-  (kind == "excavator" ? write_excavator : write_dozer)(what == "replay");
+  std::printf("%s Written by write_constants.\n", what == "counts" ? "#" : "//");
+  (kind == "excavator" ? write_excavator : write_dozer)(what);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "write_constants: %s\n", error.what());
