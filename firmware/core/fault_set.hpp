@@ -26,6 +26,13 @@ class FaultSet {
   [[nodiscard]] constexpr bool has(Fault fault) const {
     return (words_[word(fault)] & bit(fault)) != 0;
   }
+  [[nodiscard]] constexpr bool has_any(const FaultSet& of) const {
+    return ((words_[0] & of.words_[0]) | (words_[1] & of.words_[1])) != 0;
+  }
+  /// How many are in it.
+  [[nodiscard]] constexpr int count() const {
+    return __builtin_popcountll(words_[0]) + __builtin_popcountll(words_[1]);
+  }
   [[nodiscard]] constexpr bool empty() const { return (words_[0] | words_[1]) == 0; }
   [[nodiscard]] constexpr bool operator==(const FaultSet& other) const {
     return words_[0] == other.words_[0] && words_[1] == other.words_[1];
@@ -55,13 +62,8 @@ class FaultSet {
 
   /// Number of the lowest bit, the last one being that of `code`; 0 if it is not below `count`.
   static constexpr int lowest(std::uint64_t rest, int code, int count) {
-    // Nearly always there is none.
-    for (; rest != 0 && code < count; rest >>= 1U, ++code) {
-      if ((rest & 1U) != 0) {
-        return code;
-      }
-    }
-    return 0;
+    const int found = rest == 0 ? count : code + __builtin_ctzll(rest);
+    return found < count ? found : 0;
   }
   static constexpr std::size_t word(Fault fault) {
     return static_cast<std::size_t>(fault) / kWordBits % 2U;

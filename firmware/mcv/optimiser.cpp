@@ -71,6 +71,15 @@ PolicyResult choose_with_reserve(McvCircuit& circuit, McvPolicy policy, const La
   return chosen;
 }
 
+/// What earlier solves of the cycle have left, shared between searching and halving as it is in
+/// one.
+Work work_after(int taken) {
+  constexpr int kAll = kSearchSteps + kHalvingSteps;
+  const int left = std::clamp(kAll - taken, kLeastSteps, kAll);
+  const int kept = left * kHalvingSteps / kAll;
+  return {left - kept, kept};
+}
+
 McvCheck check(const McvMachine& machine, const McvInput& input, const LambdaRange& range) {
   McvCheck found = check_machine(machine);
   if (found.defect == McvDefect::kNone) {
@@ -78,7 +87,7 @@ McvCheck check(const McvMachine& machine, const McvInput& input, const LambdaRan
   }
   const bool sound = range.most > 0.0 && range.most <= 1.0 && range.reserve_n >= 0.0 &&
                      std::isfinite(range.reserve_n) && range.hold >= 0.0 && range.hold <= 1.0 &&
-                     range.hold_share >= 0.0 && range.hold_share <= 1.0;
+                     range.hold_share >= 0.0 && range.hold_share <= 1.0 && range.taken >= 0;
   return found.defect == McvDefect::kNone && !sound ? McvCheck{McvDefect::kLambdaRange, 0} : found;
 }
 
@@ -175,8 +184,9 @@ bool finite(const McvSolution& solution) {
 
 /// lambda 0 with nothing but how it came to it. In place and not inlined: a second solution would
 /// stand in the caller's frame, under the deepest chain of calls.
-[[gnu::noinline]] void give_up(int iterations, McvSolution& solution) {
+[[gnu::noinline]] void give_up(int iterations, int steps, McvSolution& solution) {
   solution = McvSolution{};
+  solution.steps = steps;
   solution.status = SolveStatus::kNotConverged;
   solution.iterations = iterations;
 }
@@ -190,12 +200,13 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
   if (solution.defect.defect != McvDefect::kNone) {
     return solution;
   }
-  Work work{kSearchSteps, kHalvingSteps};
+  Work work = work_after(range.taken);
+  const int given = work.left + work.kept;
   McvCircuit circuit = make_circuit(machine, input, &work);
   const PolicyResult chosen = choose_with_reserve(circuit, policy, range);
   allow_kept(&work);  // For what is told of the choice.
   if (!chosen.bounded) {
-    give_up(chosen.iterations, solution);
+    give_up(chosen.iterations, given - work.left, solution);
     return solution;
   }
   solution.status = SolveStatus::kOk;
@@ -210,10 +221,10 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
     look_at_standstill(circuit, solution);
     solution.status = solution.standstill.can_start ? SolveStatus::kOk : SolveStatus::kInfeasible;
   }
-  solution.steps = kSearchSteps + kHalvingSteps - work.left - work.kept;
+  solution.steps = given - work.left - work.kept;
   // Numbers that no machine has, though each is in its range, can still end outside of all ranges.
   if (work.is_spent() || !finite(solution)) {
-    give_up(chosen.iterations, solution);
+    give_up(chosen.iterations, solution.steps, solution);
   }
   return solution;
 }
@@ -227,7 +238,9 @@ McvInput mcv_input(Span<const double> velocity_mps, Span<const LoadState> load,
     input.cap_pressure_pa[k] = load[i].cap_pa;
     input.rod_pressure_pa[k] = load[i].rod_pa;
   }
-  std::copy(pump_flow_m3ps.begin(), pump_flow_m3ps.end(), input.pump_flow_m3ps.begin());
+  for (int j = 0; j < pump_flow_m3ps.count(); ++j) {
+    input.pump_flow_m3ps[static_cast<unsigned>(j)] = pump_flow_m3ps[j];
+  }
   return input;
 }
 

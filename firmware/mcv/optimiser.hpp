@@ -51,6 +51,7 @@ struct LambdaRange {
   /// before is held with less than it was reached with. 0 .. 1 each.
   double hold = 0.0;
   double hold_share = 1.0;
+  int taken = 0;  ///< McvSolution::steps of earlier solves in this cycle; it has what they left.
 };
 
 /// Largest lambda in [0, range.most] by `policy` (kFixed alone asks for no feasibility: comparisons

@@ -18,6 +18,21 @@ constexpr bool rows_are_in_order() {
 }
 static_assert(rows_are_in_order());
 
+/// Faults whose rows are so.
+template <class IsSo>
+constexpr FaultSet faults_that(const IsSo& is_so) {
+  FaultSet faults;
+  for (const FaultRow& row : kFaultRows) {
+    if (is_so(row)) {
+      faults.add(row.fault);
+    }
+  }
+  return faults;
+}
+constexpr FaultSet kCutPilot = faults_that([](const FaultRow& row) { return row.cuts_pilot; });
+constexpr FaultSet kRedStop = faults_that([](const FaultRow& row) { return row.red_stop; });
+constexpr FaultSet kAmberWarning = faults_that([](const FaultRow& row) { return !row.red_stop; });
+
 }  // namespace
 
 const FaultRow& fault_row(Fault fault) {
@@ -27,12 +42,9 @@ const FaultRow& fault_row(Fault fault) {
 
 bool cuts_pilot(Fault fault) { return fault_row(fault).cuts_pilot; }
 
-bool cuts_pilot(const FaultSet& faults) {
-  bool cuts = false;
-  for (Fault fault = faults.first(); fault != Fault::kNone; fault = faults.after(fault)) {
-    cuts = cuts || cuts_pilot(fault);
-  }
-  return cuts;
-}
+bool cuts_pilot(const FaultSet& faults) { return faults.has_any(kCutPilot); }
+
+bool has_red_stop(const FaultSet& faults) { return faults.has_any(kRedStop); }
+bool has_amber_warning(const FaultSet& faults) { return faults.has_any(kAmberWarning); }
 
 }  // namespace graben

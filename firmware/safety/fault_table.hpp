@@ -36,5 +36,8 @@ struct FaultRow {
 [[nodiscard]] bool cuts_pilot(Fault fault);
 /// The same of any of them.
 [[nodiscard]] bool cuts_pilot(const FaultSet& faults);
+/// True if any of them lights the lamp.
+[[nodiscard]] bool has_red_stop(const FaultSet& faults);
+[[nodiscard]] bool has_amber_warning(const FaultSet& faults);
 
 }  // namespace graben

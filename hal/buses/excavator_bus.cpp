@@ -266,7 +266,9 @@ constexpr auto kSendTable = bus_send_table(
 int ExcavatorTransmitter::with_table(const Outputs& outputs, TimeUs now, int count, Frames& out) {
   TableTransmitter::Frames others;
   const std::size_t more = table_.frames(outputs, now, others);
-  std::copy_n(others.begin(), more, out.begin() + count);
+  for (std::size_t n = 0; n < more; ++n) {
+    out[static_cast<std::size_t>(count) + n] = others[n];
+  }
   return count + static_cast<int>(more);
 }
 
@@ -277,7 +279,9 @@ int ExcavatorTransmitter::with_commands(const Outputs& outputs, TimeUs now, int 
   for (auto n = static_cast<std::size_t>(count); n > 0; --n) {
     out[n - 1 + first] = out[n - 1];
   }
-  std::copy_n(others.begin(), first, out.begin());
+  for (std::size_t n = 0; n < first; ++n) {
+    out[n] = others[n];
+  }
   return count + static_cast<int>(first);
 }
 

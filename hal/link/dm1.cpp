@@ -15,25 +15,13 @@ constexpr TimeUs kShortestUs = 100 * kMillisecondUs;
 constexpr TimeUs kSlackUs = kCallUs / 2;  ///< A call may come early by that.
 
 TimeUs period_us(const FaultSet& active) {
-  TimeUs count = 0;
-  for (Fault fault = active.first(); fault != Fault::kNone; fault = active.after(fault)) {
-    ++count;
-  }
-  const TimeUs share_us = kRoundUs / std::max<TimeUs>(count, 1);
+  const TimeUs share_us = kRoundUs / std::max<TimeUs>(active.count(), 1);
   return std::max(share_us - share_us % kCallUs, kShortestUs);
 }
 
 /// Whether at least `period_us` have passed. A clock that went back is no reason to fall silent.
 bool has_passed(TimeUs since_us, TimeUs period_us, TimeUs now) {
   return now < since_us || now - since_us >= period_us - kSlackUs;
-}
-
-Dm1Content lamps(const FaultSet& active) {
-  Dm1Content content;
-  for (Fault fault = active.first(); fault != Fault::kNone; fault = active.after(fault)) {
-    (fault_row(fault).red_stop ? content.red_stop : content.amber_warning) = true;
-  }
-  return content;
 }
 
 }  // namespace
@@ -101,7 +89,9 @@ bool Dm1::due(const FaultSet& active, TimeUs now, Dm1Content& content) {
     turn_us_ = now;
   }
   has_started_ = true;
-  content = lamps(active);
+  content = {};
+  content.red_stop = has_red_stop(active);
+  content.amber_warning = has_amber_warning(active);
   if (fault != Fault::kNone) {
     Entry& of = entry(fault);
     of.is_new = false;

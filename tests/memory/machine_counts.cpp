@@ -30,9 +30,8 @@ void write_dozer(const char* name, int drives, int wheels) {
 }
 
 int kept_out_of(const FenceSet& fences) {
-  return static_cast<int>(
-      std::count_if(fences.fence.begin(), fences.fence.begin() + fences.count,
-                    [](const Fence& fence) { return !fence.is_plane(); }));
+  return static_cast<int>(std::count_if(fences.fence.begin(), fences.fence.begin() + fences.count,
+                                        [](const Fence& fence) { return !fence.is_plane(); }));
 }
 
 int regulated_of(const McvMachine& valve) {
@@ -53,8 +52,8 @@ void write_most(const DozerSetup& setup) {
 }
 
 void write_counts(const char* name, const ExcavatorSetup& setup) {
-  ExcavatorCounts counts{setup.bank.count, setup.valve.pump_count, regulated_of(setup.valve), 0, 0,
-                         0};
+  ExcavatorCounts counts{
+      setup.bank.count, setup.valve.pump_count, regulated_of(setup.valve), 0, 0, 0};
   for (int i = 0; i < setup.book.count; ++i) {
     const FenceSet& fences = setup.book.program[static_cast<unsigned>(i)].fences;
     counts.fences = std::max(counts.fences, fences.count);

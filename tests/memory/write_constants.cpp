@@ -72,9 +72,9 @@ machines::SimulatedExcavator of_12t() {
 }
 
 TaskBook tasks_of_12t(const ExcavatorProfile& profile) {
-  return machines::load_tasks({machines::find_task("truck_by_steps").string(),
-                               machines::find_task("flatten").string()},
-                              {}, profile);
+  return machines::load_tasks(
+      {machines::find_task("truck_by_steps").string(), machines::find_task("flatten").string()}, {},
+      profile);
 }
 
 void write_excavator(const std::string& what) {
@@ -111,7 +111,8 @@ void write_dozer(const std::string& what) {
 int main(int argc, char** argv) try {
   const std::string what = argc == 3 ? argv[1] : "";
   const std::string kind = argc == 3 ? argv[2] : "";
-  if ((what != "setup" && what != "replay" && what != "counts") || (kind != "excavator" && kind != "dozer")) {
+  if ((what != "setup" && what != "replay" && what != "counts") ||
+      (kind != "excavator" && kind != "dozer")) {
     std::fprintf(stderr, "usage: write_constants setup|replay|counts excavator|dozer\n");
     return 2;
   }

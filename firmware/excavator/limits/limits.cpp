@@ -109,7 +109,9 @@ Followed flow_limited(const ExcavatorModel& machine, const ExcavatorValid& valid
     scale_to((motion.eases ? 1.0 : of_path) * motion.cap.factor, motion.corrected_mps);
     const double most =
         std::min(last.flow.of_corrected + control.lambda_rise.rate_ps * period_s, 1.0);
-    followed.solution = solve_mcv(machine.valve, input, control.lambda_policy, {most});
+    LambdaRange range{most};
+    range.taken = of_wanted.steps;
+    followed.solution = solve_mcv(machine.valve, input, control.lambda_policy, range);
     followed.of_corrected = followed.solution.point.lambda;
     if (motion.task.moves && !motion.eases && followed.of_corrected < kMoveHeldUp) {
       followed.solution = of_wanted;

@@ -125,7 +125,7 @@ bool CutsPhase::go_on(const DigCycle& cycle, TaskState& state) {
 }
 
 void CutsPhase::leave(const DigCycle& cycle, TaskState& state) {
-  enter_phase(CutPhase::kLifts, cycle, state.step, state);
+  enter_phase<LiftPhase>(cycle, state.step, state);
   const DigRun& run = state.dig;
   next_cut(cycle.plan(),
            {run.cut_s > 0.0 ? run.heavy_s / run.cut_s : kHoldsAt, state.dug.cuts.filled_m3,

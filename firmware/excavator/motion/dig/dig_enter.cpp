@@ -79,7 +79,7 @@ bool EnterPhase::go_on(const DigCycle& cycle, TaskState& state) {
 }
 
 void EnterPhase::leave(const DigCycle& cycle, TaskState& state) {
-  enter_phase(CutPhase::kCuts, cycle, state.step, state);
+  enter_phase<CutsPhase>(cycle, state.step, state);
 }
 
 }  // namespace graben

@@ -56,7 +56,7 @@ bool LiftPhase::go_on(const DigCycle& cycle, TaskState& state) {
 
 void LiftPhase::leave(const DigCycle& cycle, TaskState& state) {
   if (state.dig.folds && !lifts_next(cycle, state)) {
-    enter_phase(CutPhase::kLifts, cycle, state.step, state);
+    enter_phase<LiftPhase>(cycle, state.step, state);
   } else {
     state.dug.cuts.loaded_m3 = 0.0;
     enter_step(cycle, state.dug.loaded ? cycle.after(state.step) : cycle.before_cut(), state);

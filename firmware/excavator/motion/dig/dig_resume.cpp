@@ -40,42 +40,50 @@ bool in_ground(const LayerPlan& plan, const OverStrip& at) {
 
 }  // namespace
 
-bool dig_resume(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                const TaskProgram& program, const DriveVector& drives_now, const CutSeen& seen,
-                TaskState& state) {
+DigResume way_to_resume(const SwingKinematics& kinematics, const TaskProgram& program,
+                        const DriveVector& drives_now, TaskState& state) {
+  DigResume way;
   if (!state.dug.begun) {
-    return false;
+    return way;
   }
+  way.teeth = kinematics.teeth_from_joints(kinematics.joints_from_drive(drives_now).value);
+  const LayerPlan& plan = program.layers;
+  const OverStrip at = over_strip(program, state.dug.zero_m, way.teeth.position_m);
+  const double moved_m = (way.teeth.position_m - state.dug.teeth_m).norm();
+  way.share = at.share;
+  way.in_ground = in_ground(plan, at);
+  way.can = way.in_ground || (state.dug.loaded && moved_m < kStillThere_share * plan.bucket_m);
+  // Whoever has moved it has emptied it too.
+  state.dug.loaded = state.dug.loaded && way.can;
+  return way;
+}
+
+void dig_resume(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                const TaskProgram& program, const DriveVector& drives_now, const CutSeen& seen,
+                const DigResume& way, TaskState& state) {
   // What is seen of the teeth is of a task that runs.
   CutSeen now = seen;
-  now.teeth = kinematics.teeth_from_joints(kinematics.joints_from_drive(drives_now).value);
+  now.teeth = way.teeth;
   const DigCycle cycle{profile, kinematics, program, 0.0, 0.0, now};
   const LayerPlan& plan = program.layers;
-  const OverStrip at = over_strip(program, state.dug.zero_m, now.teeth.position_m);
-  const double moved_m = (now.teeth.position_m - state.dug.teeth_m).norm();
   TaskState next;
   next.dug = state.dug;
-  if (in_ground(plan, at)) {
+  if (way.in_ground) {
     next.phase = TaskPhase::kSteps;
     next.step = plan.step;
     next.dig.phase = CutPhase::kCuts;
-    next.dig.share = at.share;
+    next.dig.share = way.share;
     next.dig.entered = now.teeth;
     abandon_cut(plan, next.dug.cuts);
-    enter_phase(CutPhase::kLifts, cycle, plan.step, next);
-  } else if (state.dug.loaded && moved_m < kStillThere_share * plan.bucket_m) {
+    enter_phase<LiftPhase>(cycle, plan.step, next);
+  } else {
     const bool lifts = state.dug.step == plan.step;
     next.phase = TaskPhase::kDone;
     next.stands = drives_now;
     enter_step(cycle, lifts ? cycle.after(plan.step) : state.dug.step, next);
     next.phase = TaskPhase::kSteps;
-  } else {
-    // Whoever has moved it has emptied it too.
-    state.dug.loaded = false;
-    return false;
   }
   state = next;
-  return true;
 }
 
 }  // namespace graben

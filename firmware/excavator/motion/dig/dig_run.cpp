@@ -10,9 +10,6 @@ namespace {
 /// The table of phases; by direct calls, whose stack and cycles are known.
 template <class... Phase>
 struct PhaseTable {
-  static void enter(CutPhase phase, const DigCycle& cycle, int step, TaskState& state) {
-    (void)((phase == Phase::kPhase && (Phase::enter(cycle, step, state), true)) || ...);
-  }
   static bool go_on(CutPhase phase, const DigCycle& cycle, TaskState& state) {
     return ((phase == Phase::kPhase && Phase::go_on(cycle, state)) || ...);
   }
@@ -29,34 +26,35 @@ bool tares_next(const TaskProgram& program, int step, const DigRun& run) {
          program.step[static_cast<unsigned>(step)].kind == StepKind::kReturnToDig;
 }
 
-void begin_time(TaskState& state) {
-  state.time_s = 0.0;
-  state.settle_s = 0.0;
+/// A dig begins by feeling for the ground, once, else by its cut.
+void enter_dig(const DigCycle& cycle, int step, TaskState& state) {
+  if (first_phase(cycle.program, state) == CutPhase::kTouches) {
+    enter_phase<TouchPhase>(cycle, step, state);
+  } else {
+    enter_phase<EnterPhase>(cycle, step, state);
+  }
 }
 
 }  // namespace
 
-void enter_phase(CutPhase phase, const DigCycle& cycle, int step, TaskState& state) {
-  Phases::enter(phase, cycle, step, state);
-  state.dig.phase = phase;
-  begin_time(state);
-}
-
 void enter_step(const DigCycle& cycle, int step, TaskState& state) {
-  const bool digs = step == cycle.plan().step;
-  enter_phase(digs                                         ? first_phase(cycle.program, state)
-              : tares_next(cycle.program, step, state.dig) ? CutPhase::kTares
-                                                           : CutPhase::kNone,
-              cycle, step, state);
+  if (step == cycle.plan().step) {
+    enter_dig(cycle, step, state);
+  } else if (tares_next(cycle.program, step, state.dig)) {
+    enter_phase<TarePhase>(cycle, step, state);
+  } else {
+    enter_phase<MovePhase>(cycle, step, state);
+  }
   const bool stays = state.dig.phase == CutPhase::kNone && state.phase == TaskPhase::kSteps &&
                      !(state.dig.move.ramp.duration_s > 0.0);
   if (stays && cycle.after(step) == cycle.plan().step) {
     step = cycle.after(step);
-    enter_phase(first_phase(cycle.program, state), cycle, step, state);
+    enter_dig(cycle, step, state);
   }
   state.step = step;
   state.calm_s = 0.0;
-  begin_time(state);
+  state.time_s = 0.0;
+  state.settle_s = 0.0;
 }
 
 CutPhase first_phase(const TaskProgram& program, const TaskState& state) {

@@ -55,7 +55,7 @@ bool TarePhase::go_on(const DigCycle& cycle, TaskState& state) {
 
 void TarePhase::leave(const DigCycle& cycle, TaskState& state) {
   if (state.dig.tares == TarePart::kRaises) {
-    enter_phase(CutPhase::kTares, cycle, state.step, state);
+    enter_phase<TarePhase>(cycle, state.step, state);
   } else {
     state.dig.tares = TarePart::kNone;
     enter_step(cycle, state.step, state);

@@ -14,12 +14,6 @@ TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
              : aim_of_steps(kinematics, program, state);
 }
 
-bool resume(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-            const TaskProgram& program, const DriveVector& drives_now, const CutSeen& seen,
-            TaskState& state) {
-  return in_layers(program) && dig_resume(profile, kinematics, program, drives_now, seen, state);
-}
-
 void execute(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
              const TaskProgram& program, double advance_s, double period_s, const CutSeen& seen,
              TaskState& state) {

@@ -11,11 +11,6 @@ namespace graben {
 [[nodiscard]] TaskAim task_aim(const SwingKinematics& kinematics, const TaskProgram& program,
                                const TaskState& state);
 
-/// Goes on at once, where a program that was paused can; else it looks for its approach.
-[[nodiscard]] bool resume(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                          const TaskProgram& program, const DriveVector& drives_now,
-                          const CutSeen& seen, TaskState& state);
-
 /// One cycle on, as task_advance() has it.
 void execute(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
              const TaskProgram& program, double advance_s, double period_s, const CutSeen& seen,

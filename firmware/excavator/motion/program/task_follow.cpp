@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/excavator/motion/dig/dig_run.hpp"
+#include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/program/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
 
@@ -160,16 +162,21 @@ void next_task(const ExcavatorProfile& profile, const SwingKinematics& kinematic
     memory.state.settle_s = 0.0;
     memory.state.calm_s = 0.0;
   }
-  // While an approach is looked for the machine stands: it can't begin to resume.
-  if (!memory.runs && memory.number == number && !memory.search.runs &&
-      resume(profile, kinematics, program, drives_of(profile, travel_m), seen, memory.state)) {
-    memory.runs = true;
-    return;
-  }
   if (!memory.runs || memory.number != number) {
+    const DriveVector drives_now = drives_of(profile, travel_m);
+    // While an approach is looked for the machine stands: it can't begin to resume.
+    const bool may_resume =
+        !memory.runs && memory.number == number && !memory.search.runs && in_layers(program);
+    const DigResume way =
+        may_resume ? way_to_resume(kinematics, program, drives_now, memory.state) : DigResume{};
+    if (way.can) {
+      dig_resume(profile, kinematics, program, drives_now, seen, way, memory.state);
+      memory.runs = true;
+      return;
+    }
     memory.state.waits = false;
     memory.state.word = false;
-    search(profile, kinematics, program, number, drives_of(profile, travel_m), memory);
+    search(profile, kinematics, program, number, drives_now, memory);
     return;
   }
   const double advance_s = followed_ratio * period_s;
