@@ -100,10 +100,36 @@ def problems_of(row, source):
             yield f"{name}: where {word} is, `of` does not say"
 
 
+def test_is_there(row, root, facts):
+    """Of a row its `test`: "unit_x: case", a test of CTest's, "facts.toml: CALLS", "library" of a function of one, or
+    "own condition" of a line that names its constant."""
+    test, _, case = row["test"].partition(": ")
+    if test == "library":
+        return "__" in row["function"]
+    if test == "own condition":
+        return "constants" in row or bool(NAME.search(row["line"]))
+    if test == "facts.toml":
+        return any(fact["calls"] == case for fact in facts)
+    if case:
+        part = test.removeprefix("unit_")
+        files = [file for file in (root / "tests/unit").rglob("test_*.cpp")
+                 if part in (name := file.stem.removeprefix("test_"), f"{file.parent.name}_{name}")]
+        return any(re.search(rf"TEST\({case}\b", file.read_text(encoding="utf-8")) for file in files)
+    words = [file.read_text(encoding="utf-8") for file in (root / "tests").rglob("CMakeLists.txt")]
+    stem, _, of = test.partition("_")
+    return any(re.search(rf"\b{re.escape(test)}\b", text) for text in words) or \
+        any(file.stem == f"test_{of}" for file in (root / "tests/unit").rglob("test_*.cpp") if stem == "unit") or \
+        any(re.search(rf"\b{re.escape(test.rpartition('_')[0])}_\$", text) for text in words)
+
+
+def all_facts(file):
+    facts = file.with_name("facts.toml")
+    return tomllib.loads(facts.read_text(encoding="utf-8"))["fact"] if facts.exists() else []
+
+
 def facts_beside(file):
     """Those with a constant, as rows."""
-    facts = file.with_name("facts.toml")
-    found = tomllib.loads(facts.read_text(encoding="utf-8"))["fact"] if facts.exists() else []
+    found = all_facts(file)
     return [{"function": fact["calls"], "count": fact["at_most"], "of": [fact["of"]]} for fact in found if "of" in fact]
 
 
@@ -116,6 +142,9 @@ def main():
     source = Source([arguments.source, *arguments.generated])
     rows = tomllib.loads(arguments.rows.read_text(encoding="utf-8"))["loop"] + facts_beside(arguments.rows)
     problems = [problem for row in rows for problem in problems_of(row, source)]
+    facts = all_facts(arguments.rows)
+    problems += [f"{row['function']} {row.get('line', '')}: no such test: {row['test']}" for row in rows
+                 if "test" in row and not test_is_there(row, pathlib.Path(arguments.source), facts)]
     for problem in problems:
         print(f"constants: {problem}")
     held = sum(len(row.get("of", ())) for row in rows)

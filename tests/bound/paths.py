@@ -2,6 +2,7 @@
 """The dearest way through a function, by enumerating paths implicitly: how often each edge is taken is a whole
 number, what flows into a block flows out of it, a loop goes round as often as it may. GLPK finds the most."""
 
+import functools
 import pathlib
 import re
 import subprocess
@@ -72,7 +73,7 @@ def dearest(graph, leaving, turns, bodies, calls, cost):
     text = f"Maximize\n goal: {words(goal)}\nSubject To\n"
     text += "".join(f" c{n}: {words(row)} {end}\n" for n, (row, end) in enumerate(rows))
     text += "Generals\n" + "".join(f" x{n}\n" for n in range(len(edges))) + "End\n"
-    counts, most = solve(text, graph)
+    counts, most = solve(text, graph.image.word(graph.entry))
     times = {at: sum(counts.get(n, 0) for n in numbers) for at, numbers in into.items() if at is not None}
     return most, times
 
@@ -95,9 +96,11 @@ def longest(graph, edges, cost):
     return most[graph.entry][0], times
 
 
-def solve(text, graph):
-    with tempfile.TemporaryDirectory(prefix="graben-bound-") as name:
-        problem, answer = pathlib.Path(name, "problem.lp"), pathlib.Path(name, "answer.txt")
+@functools.lru_cache(maxsize=None)
+def solve(text, name):
+    """Of one machine many functions cost what they cost of another."""
+    with tempfile.TemporaryDirectory(prefix="graben-bound-") as folder:
+        problem, answer = pathlib.Path(folder, "problem.lp"), pathlib.Path(folder, "answer.txt")
         problem.write_text(text, "utf-8")
         done = subprocess.run(["glpsol", "--lp", problem, "-w", answer], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False)
@@ -106,7 +109,7 @@ def solve(text, graph):
         found = answer.read_text("utf-8")
     status = re.search(r"^s mip \d+ \d+ (\w) (\S+)$", found, re.M)
     if not status or status[1] != "o":
-        raise Refusal(f"{graph.image.word(graph.entry)}: no longest path: {done.stdout[-200:]}")
+        raise Refusal(f"{name}: no longest path: {done.stdout[-200:]}")
     return columns(text, found), round(float(status[2]))
 
 

@@ -21,6 +21,16 @@ class LoopFound:
 
 
 @dataclasses.dataclass
+class Site:
+    """A call: the range of each argument that is known there, and bytes of stack below the function's entry."""
+
+    where: int
+    target: int | None
+    known: tuple
+    depth: int
+
+
+@dataclasses.dataclass
 class Summary:
     entry: int
     bound: int = 0
@@ -161,31 +171,43 @@ class Program:
                 self.machine.kept[graph.entry] = self.kept(graph, self.turns[key])
         return self.turns[key]
 
+    def sites(self, graph, turns):
+        """({block: [Site]}, how deep the stack pointer goes); the same whatever is called there costs."""
+        if turns.sites is not None:
+            return turns.sites
+        found, deepest = {}, 0
+        for at, state in turns.flow.entering.items():
+            block, state = graph.blocks[at], state.copy()
+            ones = dict(block.calls)
+            for instruction in block.instructions:
+                depth = self.depth(graph, state)
+                deepest = max(deepest, depth)
+                if instruction.address in ones:
+                    found.setdefault(at, []).append(
+                        Site(instruction.address, ones[instruction.address], self.arguments(state), depth))
+                turns.flow.step(state, instruction)
+            deepest = max(deepest, self.depth(graph, state))
+        turns.sites = found, deepest
+        return turns.sites
+
     def costs(self, graph, turns, entry, cut):
         """Cost by block, and [(address, Summary)] by block."""
-        cost, called = {}, {}
-        for at, block in graph.blocks.items():
-            cost[at] = len(block.instructions)
-            if not block.calls or at not in turns.flow.entering:
-                continue
-            state = turns.flow.entering[at].copy()
-            ones = {where: target for where, target in block.calls}
-            for instruction in block.instructions:
-                if instruction.address in ones:
-                    known = self.arguments(state)
-                    summaries = []
-                    for to in self.targets(entry, ones[instruction.address], instruction.address):
-                        one = self.of(to, known, cut - {to})
-                        if to in cut:
-                            paid = self.facts.price(self.image.word(to))
-                            one = dataclasses.replace(one, bound=-paid, open=set(), vague=False)
-                        summaries.append(one)
-                    summaries.sort(key=lambda one: -one.bound)
-                    cost[at] += summaries[0].bound
-                    called.setdefault(at, []).append((instruction.address, summaries[0]))
-                    called[at] += [(instruction.address, dataclasses.replace(one, bound=0))
-                                   for one in summaries[1:]]
-                turns.flow.step(state, instruction)
+        sites, _ = self.sites(graph, turns)
+        cost = {at: len(block.instructions) for at, block in graph.blocks.items()}
+        called = {}
+        for at, ones in sites.items():
+            for site in ones:
+                summaries = []
+                for to in self.targets(entry, site.target, site.where):
+                    one = self.of(to, site.known, cut - {to})
+                    if to in cut:
+                        paid = self.facts.price(self.image.word(to))
+                        one = dataclasses.replace(one, bound=-paid, open=set(), vague=False)
+                    summaries.append(one)
+                summaries.sort(key=lambda one: -one.bound)
+                cost[at] += summaries[0].bound
+                called.setdefault(at, []).append((site.where, summaries[0]))
+                called[at] += [(site.where, dataclasses.replace(one, bound=0)) for one in summaries[1:]]
         return cost, called
 
     def arguments(self, state):
@@ -202,19 +224,12 @@ class Program:
 
     def stack(self, graph, turns, called):
         """Bytes: the deepest that its pointer goes, with whom it calls there."""
-        most = 0
-        for at, state in turns.flow.entering.items():
-            state = state.copy()
-            ones = {}
-            for where, one in called.get(at, ()):
-                ones[where] = max(ones.get(where, 0), one.stack)
-            for instruction in graph.blocks[at].instructions:
-                below = ones.get(instruction.address, 0)
-                most = max(most, self.depth(graph, state) + below)
-                turns.flow.step(state, instruction)
-                most = max(most, self.depth(graph, state))
+        sites, most = self.sites(graph, turns)
+        for at, ones in sites.items():
+            for site in ones:
+                below = max(one.stack for where, one in called[at] if where == site.where)
+                most = max(most, site.depth + below)
         return most
-
 
     def depth(self, graph, state):
         symbol, offset = state.places[self.machine.STACK]

@@ -21,6 +21,7 @@ class Turns:
     def __init__(self, graph, machine, known=None, given=None):
         self.graph, self.machine = graph, machine
         self.proven, self.how = {}, {}
+        self.sites = None  # of its calls (program.py)
         given = given or {}
         for _ in range(ROUNDS):
             self.flow = Flow(graph, machine, known, {**given, **self.proven})

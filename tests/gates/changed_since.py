@@ -16,7 +16,7 @@ import sys
 import tomllib
 
 RECORD = "tests/gates/whole_run.toml"
-TOOLS = {"tidy": ("clang-tidy", "g++"), "readme": ("g++", "node"), "browser": ("chromium", "node")}
+TOOLS = {"mutation": ("g++",), "tidy": ("clang-tidy", "g++"), "readme": ("g++", "node"), "browser": ("chromium", "node")}
 
 
 def git(root: pathlib.Path, *words: str) -> str:

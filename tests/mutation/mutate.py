@@ -28,6 +28,8 @@ import sys
 import tempfile
 import tomllib
 
+import unchanged
+
 # Each to its neighbours and to its negation; between them they tell <, == and > apart.
 COMPARISONS = {"<": ("<=", "!=", ">="), "<=": ("<", "==", ">"), ">": (">=", "!=", "<="),
                ">=": (">", "==", "<"), "==": ("!=", "<=", ">="), "!=": ("==", "<", ">")}
@@ -249,6 +251,7 @@ parser.add_argument("--jobs", type=int, default=2, help="at once")
 parser.add_argument("--timeout", type=float, default=300.0,
                     help="of each test, in seconds: what waits, or what a busy machine starves")
 parser.add_argument("--only", action="append", default=[], metavar="FILE", help="of those that are mutated")
+parser.add_argument("--changed", action="store_true", help="not those that are as when all were last tried")
 parser.add_argument("--verbose", action="store_true", help="says each verdict, and why a mutant did not compile")
 parser.add_argument("job", nargs="+", type=job,
                     help="MUTATED,COMPILED[,LINKED...]: paths below the root; objects, archives")
@@ -265,6 +268,8 @@ if arguments.only:
     mutated = set(arguments.only)
     arguments.job = [job for job in arguments.job if job.mutated in mutated]
     equivalent = {key: reason for key, reason in equivalent.items() if key[0] in mutated}
+same_as_before, since = unchanged.as_before(arguments.root, arguments.job) if arguments.changed else ([], "")
+arguments.job = [job for job in arguments.job if job not in same_as_before]
 problems = [f"{key[0]}: listed as equivalent, but is not mutated: {key[1]}"
             for key in equivalent if key[0] not in mutated]
 print(f"{'':46} {'mutants':>8} {'killed':>8} {'looped':>8} {'not C++':>8} {'equivalent':>11} "
@@ -298,5 +303,7 @@ with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool, \
               f"{counts['not compiled']:8} {same:11} {counts['survived'] - same:9} {alone:6}")
 for problem in problems:
     print(problem)
+if arguments.changed:
+    print(f"mutation: {len(same_as_before)} files are as they were {since} and are NOT tried")
 print(f"mutation: {len(arguments.job)} files, {len(problems)} problems")
 sys.exit(1 if problems else 0)

@@ -116,6 +116,14 @@ TEST(on_a_plane_it_stands_along_it) {
     const GradeProfile design(plane);
     Stand stand{0.7 + 50.0 * slope, 0.0};
     repeat(5, [&] { stand = stand_at(body(), GroundMap(), design, 50.0, stand); });
+    // As many wheels as there may be, each as much softer, stand the same.
+    DozerBody wheels = body();
+    wheels.suspension_npm *= static_cast<double>(wheels.wheels) / kMostWheels;
+    wheels.wheels = kMostWheels;
+    Stand of_more{0.7 + 50.0 * slope, 0.0};
+    repeat(5, [&] { of_more = stand_at(wheels, GroundMap(), design, 50.0, of_more); });
+    assert_near(of_more.pitch_rad, stand.pitch_rad, 0.02);
+    assert_near(of_more.height_m, stand.height_m, 0.02);
     // The tilted springs' load leans to the lower end.
     assert_near(stand.pitch_rad, std::atan(slope), 0.02);
     assert_near(stand.height_m, 0.7 + 50.0 * slope, 0.02);

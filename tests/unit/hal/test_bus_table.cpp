@@ -48,6 +48,42 @@ struct Bus {
   }
 };
 
+/// As many messages and signals as a table may have: the last of each message is a swash or speed.
+TEST(a_full_table_is_read_to_its_end) {
+  constexpr std::size_t kEach = kMostTableSources / kMostTableReceived;
+  BusTable full;
+  full.message_count = kMostTableReceived;
+  full.source_count = kMostTableSources;
+  for (std::size_t i = 0; i < kMostTableReceived; ++i) {
+    full.rule[i].id = kAngles + 0x100 * static_cast<std::uint32_t>(i);
+    full.rule[i].length = 8;
+    full.message[i].period_us = kPeriod;
+    full.message[i].timeout_us = 35 * kMillisecondUs;
+    full.message[i].first = static_cast<std::uint8_t>(kEach * i);
+    full.message[i].count = kEach;
+    for (std::size_t n = 0; n < kEach; ++n) {
+      TableSource& source = full.source[kEach * i + n];
+      source.bits = {static_cast<std::uint8_t>(16 * n), 16, false, false};
+      source.place = SourcePlace::kSwash;
+      source.index = static_cast<std::uint8_t>(i % 2);
+      source.scale = 1e-3;
+      source.most = 1.0;
+    }
+  }
+  ExcavatorReceiver receiver{with_table({}, &full)};
+  for (std::size_t i = 0; i < kMostTableReceived; ++i) {
+    CanFrame frame;
+    frame.id = full.rule[i].id;
+    frame.length = 8;
+    put_raw(full.source[kEach * i + kEach - 1].bits, static_cast<std::int64_t>(10 * i), frame.data);
+    receiver.accept(frame, kNow);
+    assert_near(receiver.inputs().swash_ratio[i % 2].value, 0.01 * static_cast<double>(i), 1e-9);
+  }
+  receiver.finish(kNow);
+  assert_int_equal(receiver.table().accepted, kMostTableReceived);
+  assert_int_equal(receiver.table().out_of_range, 0);
+}
+
 TEST(bits_lie_where_a_dbc_says) {
   // Bytes by hand: Intel from the lowest bit on, Motorola from the highest.
   const dbc::Payload data{0x12, 0x34, 0x56, 0x78, 0x9A, 0xBC, 0xDE, 0xF0};
