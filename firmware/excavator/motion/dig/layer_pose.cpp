@@ -209,13 +209,19 @@ LinePlan free_line(const ExcavatorProfile& profile, const SwingKinematics& kinem
   return lift;
 }
 
+namespace {
+
+bool begins_reached(const SwingKinematics& kinematics, const TaskProgram& program, const Cut& cut) {
+  return is_reached(kinematics, cut_pose(program, cut, cut.from_share, cut.enters_m)) &&
+         is_reached(kinematics, cut_pose(program, cut, cut.from_share, cut.height_m));
+}
+
+}  // namespace
+
 double steepest(const SwingKinematics& kinematics, const TaskProgram& program, Cut cut) {
   for (const double steep : {1.0, 0.75, 0.5, 0.25}) {
     cut.steep = steep;
-    const bool reached =
-        is_reached(kinematics, cut_pose(program, cut, cut.from_share, cut.enters_m)) &&
-        is_reached(kinematics, cut_pose(program, cut, cut.from_share, cut.height_m));
-    if (reached) {
+    if (begins_reached(kinematics, program, cut)) {
       return steep;
     }
   }
@@ -230,10 +236,12 @@ void begin_beyond(const SwingKinematics& kinematics, const TaskProgram& program,
   for (const double beyond : kBeyond_shares) {
     Cut farther = cut;
     farther.from_share = -beyond * program.layers.bucket_m / program.layers.way_m;
-    farther.steep = steepest(kinematics, program, farther);
-    if (farther.steep >= kSteepBeyond) {
-      cut = farther;
-      return;
+    for (const double steep : kSteepBeyond) {
+      farther.steep = steep;
+      if (begins_reached(kinematics, program, farther)) {
+        cut = farther;
+        return;
+      }
     }
   }
 }

@@ -166,9 +166,9 @@ inline constexpr double kSlot_share = 0.24;
 /// Ways beyond the line that a falling wall is cut back by, the first that the machine can. [-;
 /// chosen: 0.5, 0.35, 0.2, 0.1 m on the 12 t; not tried otherwise]
 inline constexpr std::array<double, 4> kBeyond_shares = {0.4, 0.28, 0.16, 0.08};
-/// Least share of the steep attitude with which a wall is cut back. [-; chosen: not tried
-/// otherwise]
-inline constexpr double kSteepBeyond = 0.75;
+/// Shares of the steep attitude with which a wall is cut back, the first that the machine can. [-;
+/// chosen: not tried otherwise]
+inline constexpr std::array<double, 2> kSteepBeyond = {1.0, 0.75};
 
 // Height (layer_height.cpp)
 /// Least share of a cycle by which a plan rises, whatever bars its way on. [-; chosen: not tried
