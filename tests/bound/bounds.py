@@ -11,8 +11,6 @@ OBSERVED = HERE.parent / "timing" / "counts" / "observed.json"
 DRIFT = 0.02
 # Parts of a step that are less than this share of it are not written down.
 LEAST_SHARE = 0.001
-# What a bound is called, by whose it is.
-WORDS = {"any": "instructions", "machine": "instructions_of_its_machine"}
 
 
 def known():
@@ -20,13 +18,15 @@ def known():
 
 
 def judge(name, found, update):
-    """`found`: (Summary, stages) by whose bound it is, "any" and "machine"."""
+    """`found`: (Summary, stages) by whose bound it is: "any", or a machine's name."""
     target, kind = name.split(".")
     bounds = known()
-    now = {WORDS[whose]: summary.bound for whose, (summary, _) in found.items()}
+    now = {whose: summary.bound for whose, (summary, _) in found.items()}
     now["stack"] = max(summary.stack for summary, _ in found.values())
     if update:
-        summary, stages = found["machine"] if "machine" in found else found["any"]
+        # What a shipped machine's are made of says more than what no machine has at once.
+        summary, stages = max(((one, of) for whose, (one, of) in found.items() if whose != "any" or len(found) == 1),
+                              key=lambda pair: pair[0].bound)
         parts = {part: bound for part, bound in stages.items() if bound >= LEAST_SHARE * summary.bound}
         bounds.setdefault(target, {})[kind] = {**now, "of": parts}
         write(bounds)
@@ -36,37 +36,45 @@ def judge(name, found, update):
         if figure not in was:
             problems.append(f"{kind}: bounds.toml has no {figure} of it (--toml fills it in)")
         elif abs(is_now - was[figure]) > DRIFT * was[figure]:
-            problems.append(f"{kind}: {is_now} {figure}, it was {was[figure]} (--toml, if it is meant)")
-    least = min(summary.bound for summary, _ in found.values())
-    if observed(target, kind) > least:
-        problems.append(f"{kind}: {observed(target, kind)} instructions were observed, more than the bound")
+            problems.append(f"{kind}: {words(figure, is_now)}, it was {was[figure]} (--toml, if it is meant)")
+    problems += [f"{kind}: {seen} instructions of {whose} were observed, more than the bound"
+                 for whose in found if (seen := observed(target, kind, whose)) > now[whose]]
     return problems
 
 
-def observed(target, kind):
-    """The dearest cycle that was counted."""
+def words(figure, value):
+    return f"{value} B of stack" if figure == "stack" else f"{value} instructions of {figure} machine"
+
+
+def observed(target, kind, whose="any"):
+    """The dearest cycle that was counted, of this machine."""
     groups = json.loads(OBSERVED.read_text("utf-8")).get(target, {})
-    return max((row["count"] for group, row in groups.items()
-                if not group.startswith("solve") and group.startswith("dozer") == (kind == "dozer")), default=0)
+    return max((row["count"] for group, row in groups.items() if not group.startswith("solve") and
+                (group.removesuffix("-queue") == whose or
+                 whose == "any" and group.startswith("dozer") == (kind == "dozer"))), default=0)
 
 
 def write(bounds):
-    lines = ["# What bound.py --toml has found: instructions of a step at most, bytes of stack, and whose they are.\n"]
+    lines = ["# What bound.py --toml has found: instructions of a step at most, of any machine and of some; bytes of stack;",
+             "\n# and what of the dearest of those machines is whose.\n"]
     for target in sorted(bounds):
         for kind, row in sorted(bounds[target].items()):
             lines.append(f"\n[{target}.{kind}]\n")
-            lines += [f"{figure} = {row[figure]}\n" for figure in (*WORDS.values(), "stack") if figure in row]
+            lines += [f"{figure} = {value}\n" for figure, value in row.items() if figure != "of"]
             lines.append(f"\n[{target}.{kind}.of]\n")
             lines += [f'"{part}" = {bound}\n' for part, bound in sorted(row["of"].items(), key=lambda pair: -pair[1])]
     BOUNDS.write_text("".join(lines), "utf-8")
 
 
 def table(bounds):
-    rows = ["| Target | Image | Bound of any machine, instructions | Bound of its own | Observed | Bound / observed |"
-            " Static stack, B |", "| --- | --- | ---: | ---: | ---: | ---: | ---: |"]
+    rows = ["| Target | Kind | Machine | Bound, instructions | Observed | Bound / observed | Static stack, B |",
+            "| --- | --- | --- | ---: | ---: | ---: | ---: |"]
     for target in sorted(bounds):
         for kind, row in sorted(bounds[target].items()):
-            own, seen = row.get(WORDS["machine"], row["instructions"]), observed(target, kind)
-            rows.append(f"| {target} | {kind} | {row['instructions']:,} | {own:,} | {seen:,} | {own / seen:.1f} | "
-                        f"{row['stack']:,} |".replace(",", " "))
+            for whose, bound in row.items():
+                if whose not in ("of", "stack"):
+                    seen = observed(target, kind, whose)
+                    ratio = f"{bound / seen:.1f}" if seen else "-"
+                    rows.append(f"| {target} | {kind} | {whose} | {bound:,} | {seen:,} | {ratio} | {row['stack']:,} |"
+                                .replace(",", " "))
     return rows

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Machines that the controller is not told: cells.py GRABEN [--fine] [--jobs N]
+"""Machines that the controller is not told: cells.py GRABEN [--fine | --map] [--speed S] [--law LAW] [--jobs N]
 digs the dry path, without any other error, on simulated machines whose oil, opening exponent and dead band
 are each cell's, and prints a row a cell: how it ended, largest distance of the true tip from the path,
 ringing (rms above 1 Hz), and how far the learnt ends of the dead bands are from the true ones.
@@ -23,6 +23,7 @@ import tempfile
 # Oil in GPa, exponent of the opening, dead band as a share of the travel.
 COARSE = ((0.7, 1.0, 1.4, 2.0), (1.4, 1.6, 1.8), (0.17, 0.20, 0.23))
 FINE = ((0.6, 0.8, 1.0, 1.4, 2.0), (1.2, 1.4, 1.6, 1.8, 2.0), (0.15, 0.175, 0.20, 0.225, 0.25))
+MAP = ((0.6, 0.7, 1.0, 1.4, 2.0), (1.3, 1.5, 1.6, 1.8), (0.16, 0.19, 0.22, 0.24))
 PROFILE_DEAD_BAND = 0.20
 EDGES = re.compile(r" 18FF3982#([0-9A-F]{12})")
 
@@ -37,10 +38,17 @@ def found(cell):
     return f"oil={cell[0]},exponent={cell[1]},dead_band={cell[2]}"
 
 
-def run(graben, cell, law, folder):
+def share_of_speed(text):
+    share = float(text)
+    if not 0.05 <= share <= 1.0:
+        raise argparse.ArgumentTypeError("a share of the full speed, 0.05 .. 1")
+    return share
+
+
+def run(graben, cell, how, folder):
     name = folder / "_".join(map(str, cell))
     summary = pathlib.Path(f"{name}.json")
-    done = subprocess.run([graben, "dig", *law, "--found", found(cell), "--out", str(name), "--summary", str(summary)],
+    done = subprocess.run([graben, "dig", *how, "--found", found(cell), "--out", str(name), "--summary", str(summary)],
                           capture_output=True, text=True, check=False)
     if done.returncode not in (0, 1) or not summary.exists():
         raise RuntimeError(f"{found(cell)}: status {done.returncode}: {done.stderr.strip()[-300:]}")
@@ -61,7 +69,10 @@ def worst(rows, column):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("graben")
-    parser.add_argument("--fine", action="store_true", help="125 cells instead of 36")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--fine", action="store_true", help="125 cells instead of 36")
+    which.add_argument("--map", action="store_true", help="80 cells instead of 36, of softer oil and other edges")
+    parser.add_argument("--speed", type=share_of_speed, default=1.0, metavar="S", help="of the full one, 0.05 .. 1")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--law", help="the profile's unless told")
     parser.add_argument("--most-error", type=float, default=50.0, metavar="MM")
@@ -69,11 +80,11 @@ def main():
     parser.add_argument("--most-edge", type=float, default=3.0, metavar="PERCENT")
     parser.add_argument("--may-miss", type=int, default=0, metavar="CELLS")
     options = parser.parse_args()
-    law = ("--law", options.law) if options.law else ()
-    cells = list(itertools.product(*(FINE if options.fine else COARSE)))
+    how = ("--speed", str(options.speed), *(("--law", options.law) if options.law else ()))
+    cells = list(itertools.product(*(FINE if options.fine else MAP if options.map else COARSE)))
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         try:
-            rows = list(pool.map(lambda cell: run(options.graben, cell, law, pathlib.Path(folder)), cells))
+            rows = list(pool.map(lambda cell: run(options.graben, cell, how, pathlib.Path(folder)), cells))
         except RuntimeError as error:
             print(f"cells.py: {error}", file=sys.stderr)
             sys.exit(2)
