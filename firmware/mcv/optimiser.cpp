@@ -74,9 +74,9 @@ PolicyResult choose_with_reserve(McvCircuit& circuit, McvPolicy policy, const La
 /// What earlier solves of the cycle have left, shared between searching and halving as it is in
 /// one.
 Work work_after(int taken) {
-  constexpr int kAll = kSearchSteps + kHalvingSteps;
-  const int left = std::clamp(kAll - taken, kLeastSteps, kAll);
-  const int kept = left * kHalvingSteps / kAll;
+  const int all = kSearchSteps + kHalvingSteps;
+  const int left = std::clamp(all - taken, kLeastSteps, all);
+  const int kept = left * kHalvingSteps / all;
   return {left - kept, kept};
 }
 

@@ -46,9 +46,9 @@ inline constexpr int kSearchSteps = 480;
 /// Steps beside them that halving takes at most. [-; size: Algorithm 1 takes 286 at most on 400 000
 /// of them]
 inline constexpr int kHalvingSteps = 320;
-/// Steps that a solve has at least, whatever earlier ones of its cycle took. [-; size: of 2.4 million
-/// random circuits all but a ten thousandth take 287 with those for halving; a second solve has as
-/// many unless the first was one of the others]
+/// Steps that a solve has at least, whatever earlier ones of its cycle took. [-; size: of 2.4
+/// million random circuits all but a ten thousandth take 287 with those for halving; a second solve
+/// has as many unless the first was one of the others]
 inline constexpr int kLeastSteps = 240;
 
 /// Multiple of a spool table's last c_L and travel beyond which a shortfall is not told apart. [-;

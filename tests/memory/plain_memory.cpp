@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The C library's functions over bytes, as plain loops, for a static image of a machine with Linux:
-/// glibc chooses its own when a process starts, by a pointer that no image shows. Theirs need fewer
-/// instructions.
+/// The C library's functions over bytes, as plain loops, for a static image of a machine with
+/// Linux: glibc chooses its own when a process starts, by a pointer that no image shows. Theirs
+/// need fewer instructions.
 
 #include <cstddef>
 

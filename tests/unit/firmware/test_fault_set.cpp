@@ -70,6 +70,22 @@ TEST(a_number_from_128_on_is_not_kept, FaultSet faults) {
   assert_true(faults.empty());
 }
 
+TEST(they_are_counted_and_met) {
+  FaultSet set;
+  FaultSet one;
+  for (int number = 1; number < kFaultCount; ++number) {
+    set.add(static_cast<Fault>(number));
+    assert_int_equal(set.count(), number);
+    one = {};
+    one.add(static_cast<Fault>(number));
+    assert_true(set.has_any(one) && one.has_any(set));
+    set.remove(static_cast<Fault>(number));
+    assert_false(set.has_any(one));
+    set.add(one);
+  }
+  assert_false(set.has_any({}));
+}
+
 TEST(sets_are_united, FaultSet some) {
   some.add(Fault::kBusOff);
   some.add(Fault::kStrokeMissing);
