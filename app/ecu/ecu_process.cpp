@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
@@ -15,6 +16,7 @@
 #include "app/ecu/emergency_note.hpp"
 #include "app/ecu/end_signals.hpp"
 #include "app/ecu/kinds.hpp"
+#include "app/ecu/store/process_store.hpp"
 #include "app/machines/any_machine.hpp"
 #include "app/machines/task_file.hpp"
 #include "platform/can_port_group.hpp"
@@ -155,7 +157,7 @@ std::uint32_t small(std::uint64_t count) {
 
 template <class Ecu>
 void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
-                         EmergencyNote& note, bool real_time) {
+                         EmergencyNote& note, ProcessStore* store, bool real_time) {
   for (int neutral_cycles = 0; neutral_cycles < kNeutralCycles;) {
     const CyclicClock::Cycle cycle = clock.wait();
     if (stop_requested()) {
@@ -167,6 +169,9 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
     ecu.step(cycle.now_us, cycle.last_us);
     watchdog.cycle_done(cycle.now_us);
     note.look(ecu.emergency());
+    if (store != nullptr) {
+      store->look(ecu.inputs(), ecu.outputs(), cycle.now_us);
+    }
     if (!mark.is_set()) {
       mark.set();
     }
@@ -196,6 +201,16 @@ std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup, const Bu
   return ids;
 }
 
+/// Nothing where neither the options nor the service manager have a folder.
+template <class Kind>
+std::unique_ptr<ProcessStore> open_store(const std::string& told, std::uint32_t profile_hash) {
+  const std::string folder = store_folder(told, std::getenv("STATE_DIRECTORY"));
+  constexpr const typename Kind::Inputs* kKind = nullptr;
+  return folder.empty()
+             ? nullptr
+             : std::make_unique<ProcessStore>(folder, profile_hash, sample_kind_of(kKind));
+}
+
 /// From the interfaces to the statistics, with the controller of a machine kind.
 template <class Kind>
 int run_controller(const typename Kind::Setup& setup, const BusTable& table,
@@ -213,6 +228,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   Watchdog watchdog(manager);
   UsageMark mark;
   ecu.set_last_frames(last);
+  auto store = open_store<Kind>(options.store, profile_hash);
   const EndSignals signals(last, buses.ports);
   demand(signals.error(), "");
   if (options.cpu) {
@@ -230,7 +246,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   manager.status(status);
   EmergencyNote note(manager, status);
 
-  cycle_until_stopped(ecu, clock, watchdog, mark, note, options.real_time);
+  cycle_until_stopped(ecu, clock, watchdog, mark, note, store.get(), options.real_time);
 
   manager.stopping();
   if (note.count() > 0) {
@@ -242,6 +258,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   usage.allocations_counted = allocations_are_counted();
   usage.page_faults = mark.faults();
   usage.real_time = options.real_time;
+  usage.store = end_store(std::move(store));
   const bool written = options.stats_file.empty() ||
                        write_stats(options.stats_file, clock, ecu.link(), buses.counters(), usage);
   return written ? 0 : kFailed;

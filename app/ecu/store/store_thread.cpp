@@ -70,6 +70,13 @@ ErrorText StoreThread::start() {
   return error;
 }
 
+StoreThread::~StoreThread() {
+  if (has_started_) {
+    is_to_end_.store(true, std::memory_order_release);
+    pthread_join(thread_, nullptr);
+  }
+}
+
 bool StoreThread::end(TimeUs most_us) {
   if (!has_started_) {
     return true;

@@ -37,6 +37,8 @@ class StoreThread {
  public:
   /// `work` outlives the thread: see end().
   explicit StoreThread(StoreWork& work) : work_(work) {}
+  /// Waits for it, however long that takes, where end() has not ended it.
+  ~StoreThread();
   StoreThread(const StoreThread&) = delete;
   StoreThread& operator=(const StoreThread&) = delete;
 
