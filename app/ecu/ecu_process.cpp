@@ -13,12 +13,14 @@
 #include <type_traits>
 #include <variant>
 
+#include "app/ecu/diagnostic_port.hpp"
 #include "app/ecu/emergency_note.hpp"
 #include "app/ecu/end_signals.hpp"
 #include "app/ecu/kinds.hpp"
 #include "app/ecu/store/process_store.hpp"
 #include "app/machines/any_machine.hpp"
 #include "app/machines/task_file.hpp"
+#include "hal/j1939/ids.hpp"
 #include "platform/can_port_group.hpp"
 #include "platform/linux/allocation_counter.hpp"
 #include "platform/linux/bus_lock.hpp"
@@ -155,9 +157,33 @@ std::uint32_t small(std::uint64_t count) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, UINT32_MAX));
 }
 
+/// What a workshop asks for beside control, and what is stored for it.
+class Workshop {
+ public:
+  Workshop(DiagnosticPort& port, ProcessStore* store)
+      : port_(port), recorder_(store == nullptr ? nullptr : &store->rings()) {
+    if (store != nullptr) {
+      recorder_.begin(store->found());
+    }
+  }
+  template <class Ecu>
+  void cycle_done(const Ecu& ecu, TimeUs now_us) {
+    const MachineStatus& status = ecu.outputs().status;
+    recorder_.look(sample_of(ecu.inputs(), ecu.outputs(), now_us), status.faults);
+    const FaultSet cleared =
+        port_.finish({status.faults, status.mode, recorder_.stored(), recorder_.can_forget()});
+    recorder_.forget(cleared, now_us);
+  }
+
+ private:
+  DiagnosticPort& port_;
+  FaultRecorder recorder_;
+};
+
 template <class Ecu>
 void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
-                         EmergencyNote& note, ProcessStore* store, bool real_time) {
+                         EmergencyNote& note, DiagnosticPort& port, Workshop& workshop,
+                         bool real_time) {
   for (int neutral_cycles = 0; neutral_cycles < kNeutralCycles;) {
     const CyclicClock::Cycle cycle = clock.wait();
     if (stop_requested()) {
@@ -166,12 +192,11 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
     }
     ecu.set_process_health(
         {small(mark.allocations()), small(mark.faults()), small(clock.overruns()), real_time});
+    port.begin(cycle.now_us);
     ecu.step(cycle.now_us, cycle.last_us);
+    workshop.cycle_done(ecu, cycle.now_us);
     watchdog.cycle_done(cycle.now_us);
     note.look(ecu.emergency());
-    if (store != nullptr) {
-      store->look(ecu.inputs(), ecu.outputs(), cycle.now_us);
-    }
     if (!mark.is_set()) {
       mark.set();
     }
@@ -181,7 +206,8 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
   static_cast<void>(clock.wait());
 }
 
-/// What the controller takes, its sensors' frames, and its own ids: another one is to be heard.
+/// What the controller takes, its sensors' frames, its own ids, as another one is to be heard, and
+/// what a workshop's tool asks.
 template <class Kind>
 std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup, const BusTable& table) {
   const auto taken = Kind::Receiver::ids();
@@ -193,6 +219,11 @@ std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup, const Bu
       ids.push_back(id);
     }
   }
+  constexpr std::uint8_t kAnyTool = j1939::kNullAddress;
+  for (const std::uint32_t pgn : {j1939::kRequestPgn, j1939::kConnectionPgn}) {
+    ids.push_back(j1939::id_of(0, pgn, kOwnAddress, kAnyTool));
+  }
+  ids.push_back(j1939::id_of(0, j1939::kRequestPgn, j1939::kGlobalAddress, kAnyTool));
   for (const std::uint32_t id : table_ids(table)) {
     if (id != 0) {
       ids.push_back(id);
@@ -222,7 +253,10 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   }
   Buses buses(options.interfaces, heard_ids<Kind>(setup, table));
   LastFrames last;
-  EcuNode<Kind> ecu(setup, profile_hash, buses.group, &table);
+  const auto own_ids = Kind::Transmitter::ids();
+  j1939::Diagnostics diagnostics(kOwnAddress, own_ids.data(), own_ids.size());
+  DiagnosticPort port(buses.group, diagnostics);
+  EcuNode<Kind> ecu(setup, profile_hash, port, &table);
   CyclicClock clock(kPeriod_us);
   ServiceNotify manager(std::getenv("NOTIFY_SOCKET"));
   Watchdog watchdog(manager);
@@ -246,7 +280,8 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   manager.status(status);
   EmergencyNote note(manager, status);
 
-  cycle_until_stopped(ecu, clock, watchdog, mark, note, store.get(), options.real_time);
+  Workshop workshop(port, store.get());
+  cycle_until_stopped(ecu, clock, watchdog, mark, note, port, workshop, options.real_time);
 
   manager.stopping();
   if (note.count() > 0) {

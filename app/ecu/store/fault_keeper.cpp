@@ -121,9 +121,21 @@ void FaultKeeper::changed(TimeUs now_us) {
 
 void FaultKeeper::drain(TimeUs now_us, std::uint32_t unix_s) {
   while (const FaultEvent* const event = rings_.events.front()) {
-    history_.add(event->fault, operation_s(event->now_us), wall_s(unix_s, now_us - event->now_us));
+    if (event->fault == Fault::kNone) {
+      forget(event->cleared);
+    } else {
+      history_.add(event->fault, operation_s(event->now_us),
+                   wall_s(unix_s, now_us - event->now_us));
+    }
     rings_.events.take();
     changed(now_us);
+  }
+}
+
+void FaultKeeper::forget(const FaultSet& cleared) {
+  for (Fault fault = cleared.first(); fault != Fault::kNone; fault = cleared.after(fault)) {
+    history_.of(fault) = {};
+    framed_.remove(fault);
   }
 }
 

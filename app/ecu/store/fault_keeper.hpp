@@ -50,6 +50,7 @@ class FaultKeeper : public StoreWork {
   }
 
  private:
+  void forget(const FaultSet& cleared);
   void drain(TimeUs now_us, std::uint32_t unix_s);
   [[nodiscard]] std::uint32_t operation_s(TimeUs now_us) const;
   [[nodiscard]] int frames_wanted(TimeUs now_us);

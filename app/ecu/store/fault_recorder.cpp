@@ -1,9 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ecu/store/fault_recorder.hpp"
 
+#include <algorithm>
+
 namespace graben::ecu {
 namespace {
 constexpr TimeUs kPowerOnUs = 10 * kSecondUs;
+constexpr std::uint32_t kMostOccurrences = 126;
+}  // namespace
+
+void FaultRecorder::begin(const FaultHistory& history) {
+  for (std::size_t i = 0; i < stored_.size(); ++i) {
+    stored_[i] =
+        static_cast<std::uint8_t>(std::min(history.entry[i].occurrences, kMostOccurrences));
+  }
+}
+
+void FaultRecorder::forget(const FaultSet& cleared, TimeUs now_us) {
+  if (cleared.empty()) {
+    return;
+  }
+  for (Fault fault = cleared.first(); fault != Fault::kNone; fault = cleared.after(fault)) {
+    stored_[static_cast<std::size_t>(fault)] = 0;
+    // A frame that is not whole yet is forgotten with it.
+    waiting_.remove(fault);
+  }
+  if (rings_ != nullptr) {
+    static_cast<void>(rings_->events.put({Fault::kNone, now_us, cleared}));
+  }
 }
 
 void FaultRecorder::keep(const CycleSample& sample) {
@@ -21,7 +45,12 @@ void FaultRecorder::note(const FaultSet& faults, TimeUs now_us) {
     if (there_.has(fault)) {
       continue;
     }
-    static_cast<void>(rings_.events.put({fault, now_us}));
+    std::uint8_t& stored = stored_[static_cast<std::size_t>(fault)];
+    stored = static_cast<std::uint8_t>(std::min(stored + 1U, kMostOccurrences));
+    if (rings_ == nullptr) {
+      continue;
+    }
+    static_cast<void>(rings_->events.put({fault, now_us, {}}));
     // One that goes and comes within its own frame is in that.
     if (!waiting_.has(fault)) {
       waiting_.add(fault);
@@ -47,7 +76,7 @@ void FaultRecorder::hand_over_due(TimeUs now_us) {
   for (Fault fault = due.first(); fault != Fault::kNone; fault = due.after(fault)) {
     waiting_.remove(fault);
   }
-  FreezeFrame* const frame = rings_.frames.place();
+  FreezeFrame* const frame = rings_->frames.place();
   if (frame == nullptr) {
     return;
   }
@@ -58,7 +87,7 @@ void FaultRecorder::hand_over_due(TimeUs now_us) {
   for (std::size_t i = 0; i < count_; ++i) {
     frame->sample[i] = kept_[(oldest + i) % kFrameSamples];
   }
-  rings_.frames.put();
+  rings_->frames.put();
 }
 
 void FaultRecorder::look(const CycleSample& sample, const FaultSet& faults) {

@@ -46,10 +46,10 @@ ProcessStore::ProcessStore(const std::string& folder, std::uint32_t profile_hash
     : files_(folder),
       store_(files_, profile_hash),
       keeper_(store_, rings_, kind, &say_error),
-      recorder_(rings_),
       thread_(keeper_) {
   const bool is_open = files_.open();
   const std::string found = keeper_.begin(monotonic_now_us(), boot_mark());
+  found_ = keeper_.history();
   const std::string line = "store " + folder + ": " + found;
   if (!is_open) {
     say_error((std::string("store: ") + files_.error() +

@@ -33,11 +33,10 @@ class ProcessStore {
   /// to start.
   ProcessStore(const std::string& folder, std::uint32_t profile_hash, SampleKind kind);
 
-  /// After each cycle, on the control thread.
-  template <class Inputs, class Outputs>
-  void look(const Inputs& in, const Outputs& out, TimeUs now_us) {
-    recorder_.look(sample_of(in, out, now_us), out.status.faults);
-  }
+  /// To the store's thread, for the recorder.
+  [[nodiscard]] FaultRings& rings() { return rings_; }
+  /// As it was read.
+  [[nodiscard]] const FaultHistory& found() const { return found_; }
 
   [[nodiscard]] StoreCounters counters() const;
 
@@ -49,7 +48,7 @@ class ProcessStore {
   Store store_;
   FaultRings rings_;
   FaultKeeper keeper_;
-  FaultRecorder recorder_;
+  FaultHistory found_;
   StoreThread thread_;
 };
 

@@ -21,11 +21,15 @@ class SpscRing {
   /// Null if the queue is full, which is counted.
   [[nodiscard]] T* place() {
     const std::uint32_t put = put_.load(std::memory_order_relaxed);
-    if (put - taken_.load(std::memory_order_acquire) >= kSize) {
+    if (!has_room()) {
       dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
       return nullptr;
     }
     return &slot_[put % kSize];
+  }
+  /// Whether place() would be one.
+  [[nodiscard]] bool has_room() const {
+    return put_.load(std::memory_order_relaxed) - taken_.load(std::memory_order_acquire) < kSize;
   }
   /// Hands over what has been filled in at place().
   void put() { put_.store(put_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }

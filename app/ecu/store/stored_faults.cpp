@@ -47,7 +47,10 @@ StoredFaults read_stored_faults(StoreFiles& files) {
     }
     StoredFrame frame;
     if (read_frame(record.data() + kHeadBytes, found.head.length, frame)) {
-      result.frames.push_back(frame);
+      // An older one is of an occurrence that has been cleared.
+      if (frame.operation_s >= result.history.of(static_cast<Fault>(number)).first_s) {
+        result.frames.push_back(frame);
+      }
     } else {
       not_of_use(key, found.newest, result);
     }

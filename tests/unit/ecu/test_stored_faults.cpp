@@ -1,107 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stored faults from the cycle to the record: what counts, when, with which frame, and what it
-// wears.
+// Stored faults from the cycle to the record: what counts, when, and with which frame.
 
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <memory>
 #include <string>
-#include <vector>
 
-#include "app/ecu/store/fault_keeper.hpp"
-#include "app/ecu/store/fault_recorder.hpp"
-#include "app/ecu/store/stored_faults.hpp"
-#include "platform/linux/allocation_counter.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/ecu/memory_disk.hpp"
+#include "tests/unit/ecu/fault_process.hpp"
 
-namespace {
-
-using namespace graben::ecu;
-using graben::test::MemoryDisk;
-
-constexpr TimeUs kCycleUs = 10 * kMillisecondUs;
-constexpr TimeUs kWorkUs = 100 * kMillisecondUs;
-constexpr std::uint32_t kProfile = 0xABCDEF01;
-constexpr std::uint32_t kNoon_s = 1'800'000'000;
-constexpr Fault kOne = Fault::kStrokeMissing;
-constexpr Fault kOther = Fault::kSwashMissing;
-
-std::string& said() {
-  static std::string lines;
-  return lines;
-}
-
-/// A controller's process on a disk: cycles, and the store's thread beside it, every 100 ms.
-class Process {
- public:
-  explicit Process(MemoryDisk& disk, std::uint32_t boot = 1, std::uint32_t profile = kProfile)
-      : store_(disk, profile),
-        keeper_(store_, *rings_, SampleKind::kExcavator, [](const char* line) { said() += line; }) {
-    begin_text = keeper_.begin(now_us, boot);
-  }
-
-  void cycle() {
-    sample.now_us = now_us;
-    sample.stroke[0] = static_cast<float>(now_us) / 1e6F;
-    sample.known = 1;
-    recorder_.look(sample, faults);
-    if (now_us % kWorkUs == 0) {
-      keeper_.work(now_us, wall());
-    }
-    now_us += kCycleUs;
-  }
-  void run(double seconds) {
-    repeat(std::lround(seconds * 100.0), [&] { cycle(); });
-  }
-  /// The store's thread alone; nothing comes.
-  void idle(double seconds) {
-    repeat(std::lround(seconds * 10.0), [&] {
-      now_us += kWorkUs;
-      keeper_.work(now_us, wall());
-    });
-  }
-  void pulse(Fault fault, double seconds) {
-    faults.add(fault);
-    run(seconds);
-    faults.remove(fault);
-    run(seconds);
-  }
-  void end() { keeper_.finish(now_us, wall()); }
-  [[nodiscard]] const FaultKeeper& keeper() const { return keeper_; }
-  [[nodiscard]] FaultRings& rings() { return *rings_; }
-
-  CycleSample sample;
-  FaultSet faults;
-  TimeUs now_us = 0;
-  bool clock_is_known = true;
-  std::string begin_text;
-
- private:
-  [[nodiscard]] std::uint32_t wall() const {
-    return clock_is_known ? kNoon_s + static_cast<std::uint32_t>(now_us / kSecondUs) : 0;
-  }
-
-  Store store_;
-  std::unique_ptr<FaultRings> rings_ = std::make_unique<FaultRings>();
-  FaultKeeper keeper_;
-  FaultRecorder recorder_{*rings_};
-};
-
-/// One that has been ready, as after power-on.
-void make_ready(Process& process) {
-  process.sample.mode = EcuMode::kReady;
-  process.run(2.0);
-}
-
-StoredFaults stored(MemoryDisk& disk) { return read_stored_faults(disk); }
-
-bool holds(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
-}
-
-}  // namespace
+using namespace graben::test::stored;
 
 TEST(occurrences_times_and_power_cycles_are_counted) {
   MemoryDisk disk;
@@ -192,6 +98,41 @@ TEST(faults_that_come_together_have_each_their_frame) {
   assert_int_equal(found.frames[0].sample[0].now_us, found.frames[1].sample[0].now_us);
 }
 
+TEST(what_is_cleared_is_forgotten_on_the_disk_too_with_its_frame) {
+  MemoryDisk disk;
+  Process process(disk);
+  make_ready(process);
+  process.pulse(kOne, 5.0);
+  process.faults.add(kOther);
+  process.run(5.0);
+  assert_int_equal(process.recorder().stored()[static_cast<std::size_t>(kOne)], 1);
+  assert_int_equal(stored(disk).frames.size(), 2);
+  FaultSet cleared;
+  cleared.add(kOne);
+  cleared.add(kOther);
+  assert_true(process.recorder().can_forget());
+  process.recorder().forget(cleared, process.now_us);
+  process.run(10.0);
+  assert_int_equal(stored(disk).history.stored(), 0);
+  assert_int_equal(stored(disk).frames.size(), 0);
+  // One that is there has not come again by that; one that comes again has a new frame.
+  process.faults.add(kOne);
+  while (stored(disk).history.stored() == 0) {
+    process.run(0.1);
+  }
+  assert_int_equal(stored(disk).frames.size(), 0);
+  process.run(10.0);
+  assert_int_equal(stored(disk).history.of(kOther).occurrences, 0);
+  assert_int_equal(stored(disk).history.of(kOne).occurrences, 1);
+  assert_int_equal(stored(disk).frames.size(), 1);
+  assert_int_equal(stored(disk).frames[0].operation_s, 27);
+  process.end();
+  FaultRecorder again(nullptr);
+  again.begin(stored(disk).history);
+  assert_int_equal(again.stored()[static_cast<std::size_t>(kOne)], 1);
+  assert_int_equal(again.stored()[static_cast<std::size_t>(kOther)], 0);
+}
+
 TEST(at_power_on_a_node_may_be_missing_for_a_while) {
   MemoryDisk disk;
   Process process(disk);
@@ -232,8 +173,15 @@ TEST(another_profile_is_another_machine) {
   other.end();
   assert_int_equal(stored(disk).history.stored(), 0);
   assert_int_equal(stored(disk).profile_hash, kProfile + 1);
-  // A frame that is another machine's is not shown beside it.
   assert_int_equal(stored(disk).frames.size(), 0);
+  // The same fault, whose own frame is not written yet, has not that of the other machine.
+  other.faults.add(kOne);
+  while (stored(disk).history.stored() == 0) {
+    other.run(0.1);
+  }
+  assert_int_equal(stored(disk).frames.size(), 0);
+  other.run(1.0);
+  assert_int_equal(stored(disk).frames.size(), 1);
 }
 
 TEST(a_damaged_store_starts_and_names_its_files) {
@@ -256,164 +204,4 @@ TEST(a_damaged_store_starts_and_names_its_files) {
   assert_false(found.has_history);
   assert_int_equal(found.damaged.size(), 3);
   assert_string_equal(found.damaged[2].c_str(), "frame-001.a");
-}
-
-TEST(a_full_disk_is_said_once_and_tried_again) {
-  MemoryDisk disk;
-  said().clear();
-  Process process(disk);
-  disk.is_full = true;
-  make_ready(process);
-  process.pulse(kOne, 90.0);
-  assert_string_equal(said().c_str(),
-                      "store: memory: No space left on device; control goes on, nothing is stored; "
-                      "tried again each minute");
-  assert_true(process.keeper().is_failing());
-  assert_true(process.keeper().failures() >= 2 && process.keeper().failures() <= 4);
-  disk.is_full = false;
-  process.run(61.0);
-  assert_false(process.keeper().is_failing());
-  assert_int_equal(stored(disk).history.of(kOne).occurrences, 1);
-}
-
-TEST(a_thread_that_does_not_come_loses_what_is_counted) {
-  MemoryDisk disk;
-  Process process(disk);
-  make_ready(process);
-  FaultRecorder recorder(process.rings());
-  CycleSample sample;
-  sample.mode = EcuMode::kReady;
-  for (int i = 0; i < 400; ++i) {
-    FaultSet faults;
-    faults.add(i % 2 == 0 ? kOne : kOther);
-    recorder.look(sample, faults);
-    sample.now_us += kCycleUs;
-  }
-  assert_int_equal(process.rings().events.dropped(), 400 - 128);
-  const std::uint32_t dropped = process.keeper().dropped();
-  process.end();
-  assert_int_equal(stored(disk).history.lost, dropped);
-  assert_int_equal(stored(disk).history.of(kOne).occurrences, 64);
-}
-
-// The bound that the manual has, against the worst that a machine can do.
-TEST(a_day_of_faults_that_come_and_go_stays_within_the_budget) {
-  MemoryDisk disk;
-  Process process(disk);
-  make_ready(process);
-  const int before = disk.writes;
-  std::uint32_t pulses = 0;
-  while (process.now_us < kDayUs) {
-    // Each second others of 60 faults, without the cycles between.
-    FaultEvent event{static_cast<Fault>(1 + pulses % (kFaultCount - 1)), process.now_us};
-    static_cast<void>(process.rings().events.put(event));
-    if (FreezeFrame* const frame = process.rings().frames.place()) {
-      frame->faults = {};
-      frame->faults.add(event.fault);
-      frame->came_us = process.now_us;
-      frame->count = 1;
-      process.rings().frames.put();
-    }
-    ++pulses;
-    process.idle(1.0);
-  }
-  process.end();
-  assert_true(disk.writes - before <= kMostWritesADay);
-  assert_true(disk.writes - before > kMostWritesADay * 9 / 10);
-  assert_int_equal(stored(disk).history.of(kOne).occurrences,
-                   (pulses + kFaultCount - 2) / (kFaultCount - 1));
-}
-
-TEST(a_process_that_starts_again_and_again_stops_writing) {
-  MemoryDisk disk;
-  for (std::uint32_t start = 0; start < 300; ++start) {
-    Process process(disk, start + 1);
-    process.sample.mode = EcuMode::kReady;
-    process.run(0.2);
-    process.faults.add(static_cast<Fault>(1 + start % 40));
-    process.run(2.0);
-    // As often as not it is killed.
-    if (start % 2 == 0) {
-      process.end();
-    }
-  }
-  // 300 lives of 2.2 s are 11 minutes, of which none lasted until a write came back.
-  assert_true(disk.writes <= kMostTokens);
-  assert_int_equal(stored(disk).history.tokens, 0);
-}
-
-TEST(the_control_thread_takes_no_heap) {
-  MemoryDisk disk;
-  Process process(disk);
-  make_ready(process);
-  FaultRecorder recorder(process.rings());
-  const ExcavatorInputs in;
-  ExcavatorOutputs out;
-  out.status.mode = EcuMode::kReady;
-  const std::uint64_t before = allocation_count();
-  for (int i = 0; i < 100; ++i) {
-    out.status.faults = {};
-    out.status.faults.add(i % 20 < 10 ? kOne : kOther);
-    recorder.look(sample_of(in, out, i * kCycleUs), out.status.faults);
-  }
-  assert_int_equal(allocation_count(), before);
-}
-
-TEST(a_sample_has_what_was_valid_of_each_kind) {
-  ExcavatorInputs in;
-  ExcavatorOutputs out;
-  in.axis[1].stroke_m = {0.5, Validity::kValid, 0};
-  in.axis[2].rod_pressure_pa = {1e6, Validity::kValid, 0};
-  in.axis[0].cap_pressure_pa = {3e6, Validity::kError, 0};
-  in.swing.angle_rad = {std::nan(""), Validity::kValid, 0};
-  in.swing.right_pressure_pa = {2e6, Validity::kValid, 0};
-  out.duty_ratio = {0.1, 0.2, 0.3, 0.4};
-  out.status.lambda = 0.5;
-  out.status.mode = EcuMode::kActive;
-  const CycleSample sample = sample_of(in, out, 7);
-  assert_int_equal(sample.known, 1U << 1U | 1U << (4U + 5U) | 1U << (4U + 7U));
-  assert_near(sample.stroke[1], 0.5, 1e-7);
-  assert_near(sample.pressure_pa[5], 1e6, 0.1);
-  assert_near(sample.pressure_pa[7], 2e6, 0.1);
-  assert_near(sample.pressure_pa[0], 0.0, 0.0);
-  assert_near(sample.duty_ratio[3], 0.4, 1e-7);
-  assert_true(sample.mode == EcuMode::kActive && sample.now_us == 7);
-  assert_string_equal(sample_names(SampleKind::kExcavator).pressure[5], "bucket_rod_pa");
-
-  DozerInputs dozer;
-  DozerOutputs driven;
-  dozer.blade_stroke_m = {0.2, Validity::kValid, 0};
-  dozer.track[1].line_pressure_pa = {4e6, Validity::kValid, 0};
-  driven.blade_duty_ratio = -0.3;
-  driven.pump_ratio = {0.6, 0.7};
-  const CycleSample graded = sample_of(dozer, driven, 0);
-  assert_int_equal(graded.known, 1U | 1U << 5U);
-  assert_near(graded.duty_ratio[0], -0.3, 1e-7);
-  assert_near(graded.duty_ratio[3], 0.7, 1e-7);
-  assert_string_equal(sample_names(SampleKind::kDozer).duty[3], "right_pump");
-  assert_null(sample_names(SampleKind::kDozer).stroke[2]);
-}
-
-TEST(bytes_that_are_no_record_are_refused) {
-  std::array<std::uint8_t, kMostPayloadBytes> bytes{};
-  FaultHistory history;
-  history.add(kOne, 3, 4);
-  const std::size_t length = write_history(history, bytes.data());
-  assert_true(read_history(bytes.data(), length, history));
-  assert_int_equal(history.of(kOne).last_unix_s, 4);
-  for (std::size_t shorter = 0; shorter < length; ++shorter) {
-    assert_false(read_history(bytes.data(), shorter, history));
-  }
-  StoredFrame frame;
-  frame.fault = kOther;
-  frame.count = 2;
-  frame.sample[1].now_us = -20'000;
-  const std::size_t whole = write_frame(frame, bytes.data());
-  assert_true(read_frame(bytes.data(), whole, frame));
-  assert_true(frame.fault == kOther && frame.sample[1].now_us == -20'000);
-  for (std::size_t shorter = 0; shorter < whole; ++shorter) {
-    assert_false(read_frame(bytes.data(), shorter, frame));
-  }
-  bytes[2] = 9;
-  assert_false(read_frame(bytes.data(), whole, frame));
 }
