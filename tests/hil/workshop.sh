@@ -8,7 +8,7 @@
 vcan_up vcan0
 record vcan0
 ecu_start vcan0 excavator_22t.toml --stats "$OUT/stats" --store /store
-sleep 15
+sleep 12.5
 # DM2; a group that there is not, of us and of all; DM3; what is no request; DM1 of us alone, which is long.
 for request in 18EA82F9#CBFE00 18EA82F9#ECFE00 18EAFFF9#ECFE00 18EA82F9#CCFE00 18EA82F9#01 18EA82F9#CAFE00; do
   cansend vcan0 "$request"
@@ -17,7 +17,7 @@ done
 mkdir "$OUT/before" "$OUT/after"
 cp /store/* "$OUT/before"
 cansend vcan0 18EA82F9#D3FE00
-sleep 7
+sleep 6
 ecu_stop
 cp /store/* "$OUT/after"
 
@@ -30,5 +30,5 @@ mkdir /full
 mount -t tmpfs -o size=8k tmpfs /full || fail 'no small disk'
 dd if=/dev/zero of=/full/rest bs=4096 count=2 2>/dev/null
 ecu_start vcan0 excavator_22t.toml --stats "$OUT/stats_full" --store /full/store
-sleep 12
+sleep 2
 ecu_stop
