@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <random>
 #include <set>
@@ -29,7 +28,7 @@ class MemoryDisk : public ecu::StoreFiles {
       return 0;
     }
     const std::size_t count = std::min(room, found->second.size());
-    std::memcpy(out, found->second.data(), count);
+    std::copy_n(found->second.begin(), count, out);
     return static_cast<long>(count);
   }
   bool write(const char* name, const std::uint8_t* bytes, std::size_t count) override {
