@@ -72,6 +72,9 @@ inline constexpr CommandRow kCommands[] = {
     {"film", "scope",
      "The scope's picture of a log (candump -L) as a film. Needs Chromium and ffmpeg; takes some "
      "tenths of a second for each picture"},
+    {"faults", "machine",
+     "Faults that a controller has stored: how often, when first and last, power cycles since, and "
+     "what the machine did as each came. From the folder of graben-ecu's --store, or a copy of it"},
     {"new-machine", "machine",
      "Asks for a machine's measures in mm, degrees, bar, rpm and L/min, a line each on standard "
      "input, and writes its profile with a comment on every key. What is not told stays as it is "

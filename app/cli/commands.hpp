@@ -37,6 +37,7 @@ void add_scope(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_export(CLI::App& app, int& status);
 void add_film(CLI::App& app, int& status);
+void add_faults(CLI::App& app, int& status);
 void add_new_machine(CLI::App& app, int& status);
 
 /// A task on the simulated machine, as both `autodig` and `dig --task` run it.

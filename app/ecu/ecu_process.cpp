@@ -7,16 +7,20 @@
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <variant>
 
+#include "app/ecu/diagnostic_port.hpp"
 #include "app/ecu/emergency_note.hpp"
 #include "app/ecu/end_signals.hpp"
 #include "app/ecu/kinds.hpp"
+#include "app/ecu/store/process_store.hpp"
 #include "app/machines/any_machine.hpp"
 #include "app/machines/task_file.hpp"
+#include "hal/j1939/ids.hpp"
 #include "platform/can_port_group.hpp"
 #include "platform/linux/allocation_counter.hpp"
 #include "platform/linux/bus_lock.hpp"
@@ -153,9 +157,33 @@ std::uint32_t small(std::uint64_t count) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, UINT32_MAX));
 }
 
+/// What a workshop asks for beside control, and what is stored for it.
+class Workshop {
+ public:
+  Workshop(DiagnosticPort& port, ProcessStore* store)
+      : port_(port), recorder_(store == nullptr ? nullptr : &store->rings()) {
+    if (store != nullptr) {
+      recorder_.begin(store->found());
+    }
+  }
+  template <class Ecu>
+  void cycle_done(const Ecu& ecu, TimeUs now_us) {
+    const MachineStatus& status = ecu.outputs().status;
+    recorder_.look(sample_of(ecu.inputs(), ecu.outputs(), now_us), status.faults);
+    const FaultSet cleared =
+        port_.finish({status.faults, status.mode, recorder_.stored(), recorder_.can_forget()});
+    recorder_.forget(cleared, now_us);
+  }
+
+ private:
+  DiagnosticPort& port_;
+  FaultRecorder recorder_;
+};
+
 template <class Ecu>
 void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
-                         EmergencyNote& note, bool real_time) {
+                         EmergencyNote& note, DiagnosticPort& port, Workshop& workshop,
+                         bool real_time) {
   for (int neutral_cycles = 0; neutral_cycles < kNeutralCycles;) {
     const CyclicClock::Cycle cycle = clock.wait();
     if (stop_requested()) {
@@ -164,7 +192,9 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
     }
     ecu.set_process_health(
         {small(mark.allocations()), small(mark.faults()), small(clock.overruns()), real_time});
+    port.begin(cycle.now_us);
     ecu.step(cycle.now_us, cycle.last_us);
+    workshop.cycle_done(ecu, cycle.now_us);
     watchdog.cycle_done(cycle.now_us);
     note.look(ecu.emergency());
     if (!mark.is_set()) {
@@ -176,7 +206,8 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
   static_cast<void>(clock.wait());
 }
 
-/// What the controller takes, its sensors' frames, and its own ids: another one is to be heard.
+/// What the controller takes, its sensors' frames, its own ids, as another one is to be heard, and
+/// what a workshop's tool asks.
 template <class Kind>
 std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup, const BusTable& table) {
   const auto taken = Kind::Receiver::ids();
@@ -188,12 +219,27 @@ std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup, const Bu
       ids.push_back(id);
     }
   }
+  constexpr std::uint8_t kAnyTool = j1939::kNullAddress;
+  for (const std::uint32_t pgn : {j1939::kRequestPgn, j1939::kConnectionPgn}) {
+    ids.push_back(j1939::id_of(0, pgn, kOwnAddress, kAnyTool));
+  }
+  ids.push_back(j1939::id_of(0, j1939::kRequestPgn, j1939::kGlobalAddress, kAnyTool));
   for (const std::uint32_t id : table_ids(table)) {
     if (id != 0) {
       ids.push_back(id);
     }
   }
   return ids;
+}
+
+/// Nothing where neither the options nor the service manager have a folder.
+template <class Kind>
+std::unique_ptr<ProcessStore> open_store(const std::string& told, std::uint32_t profile_hash) {
+  const std::string folder = store_folder(told, std::getenv("STATE_DIRECTORY"));
+  constexpr const typename Kind::Inputs* kKind = nullptr;
+  return folder.empty()
+             ? nullptr
+             : std::make_unique<ProcessStore>(folder, profile_hash, sample_kind_of(kKind));
 }
 
 /// From the interfaces to the statistics, with the controller of a machine kind.
@@ -207,12 +253,16 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   }
   Buses buses(options.interfaces, heard_ids<Kind>(setup, table));
   LastFrames last;
-  EcuNode<Kind> ecu(setup, profile_hash, buses.group, &table);
+  const auto own_ids = Kind::Transmitter::ids();
+  j1939::Diagnostics diagnostics(kOwnAddress, own_ids.data(), own_ids.size());
+  DiagnosticPort port(buses.group, diagnostics);
+  EcuNode<Kind> ecu(setup, profile_hash, port, &table);
   CyclicClock clock(kPeriod_us);
   ServiceNotify manager(std::getenv("NOTIFY_SOCKET"));
   Watchdog watchdog(manager);
   UsageMark mark;
   ecu.set_last_frames(last);
+  auto store = open_store<Kind>(options.store, profile_hash);
   const EndSignals signals(last, buses.ports);
   demand(signals.error(), "");
   if (options.cpu) {
@@ -230,7 +280,8 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   manager.status(status);
   EmergencyNote note(manager, status);
 
-  cycle_until_stopped(ecu, clock, watchdog, mark, note, options.real_time);
+  Workshop workshop(port, store.get());
+  cycle_until_stopped(ecu, clock, watchdog, mark, note, port, workshop, options.real_time);
 
   manager.stopping();
   if (note.count() > 0) {
@@ -242,6 +293,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   usage.allocations_counted = allocations_are_counted();
   usage.page_faults = mark.faults();
   usage.real_time = options.real_time;
+  usage.store = end_store(std::move(store));
   const bool written = options.stats_file.empty() ||
                        write_stats(options.stats_file, clock, ecu.link(), buses.counters(), usage);
   return written ? 0 : kFailed;

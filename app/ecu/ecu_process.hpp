@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/ecu/store/process_store.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/link/message_links.hpp"
 #include "hal/link/message_rules.hpp"
@@ -22,6 +23,7 @@ struct EcuOptions {
   std::string profile;
   std::vector<std::string> tasks;  ///< Files or names, in the order of their numbers, from 0.
   std::string stats_file;          ///< Written on the way out; none if empty.
+  std::string store;               ///< Folder; $STATE_DIRECTORY if empty; none without that.
   bool real_time = true;
   int priority = 80;  ///< SCHED_FIFO.
   std::optional<int> cpu;
@@ -35,6 +37,7 @@ struct Usage {
   bool real_time = false;
   std::uint32_t emergencies = 0;  ///< Of nodes of CANopen, as they came and changed.
   NodeEmergency last_emergency;
+  StoreCounters store;
   TimeUs start_us = 0;  ///< From the process's begin to its first frame.
 };
 

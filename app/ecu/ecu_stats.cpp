@@ -40,6 +40,11 @@ void print(std::FILE* to, const CyclicClock& clock, const LinkCounters& link,
   count(to, "emergencies", usage.emergencies);
   count(to, "emergency_node", usage.last_emergency.id);
   count(to, "emergency_code", usage.last_emergency.code);
+  count(to, "store", usage.store.is_there ? 1 : 0);
+  count(to, "store_failed", usage.store.failed ? 1 : 0);
+  count(to, "store_writes", usage.store.writes);
+  count(to, "store_failures", usage.store.failures);
+  count(to, "store_dropped", usage.store.dropped);
   durations(to, "wake_up_latency", clock.wake_up_latency());
   durations(to, "cycle_time", clock.cycle_time());
   std::fprintf(to, "# Columns: us, wake_up_latency, cycle_time\n");

@@ -22,6 +22,10 @@ std::string interface_name(const std::string& name) {
               : "'" + name + "' is no name of an interface: 1 to 15 characters, no blank, no /";
 }
 
+std::string folder_name(const std::string& name) {
+  return name.empty() ? "is empty; wanted: a folder" : "";
+}
+
 /// Without a value when the process is to end at once, with `status`: 0 after --help or --version,
 /// 2 after wrong usage, which has been told.
 std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& status) {
@@ -49,6 +53,12 @@ std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& s
       ->check(CLI::Range(0, 1023));
   app.add_option("--stats", options.stats_file,
                  "Write cycle times, wake-up latencies and counters to this file at the end");
+  app.add_option("--store", options.store,
+                 "Folder for what outlives the power: stored faults and their freeze frames, at "
+                 "most 1472 writes of 4 KiB in a day; $STATE_DIRECTORY unless told, which the "
+                 "service has, else none. A disk that is full, missing or read-only is said and "
+                 "stops nothing")
+      ->check(CLI::Validator(folder_name, "DIR"));
   bool no_real_time = false;
   app.add_flag("--no-realtime", no_real_time,
                "Run without real-time priority and locked memory; said in every EcuHealth frame. "

@@ -43,9 +43,17 @@ void EcuListener::take_stroke(const CanFrame& frame, dbc::Physical Message::*sig
 }
 
 void EcuListener::take_trouble(const CanFrame& frame, TimeUs now) {
-  if (!same_message(frame.id, Dbc::DM1::kId)) {
-    return;
+  if (same_message(frame.id, Dbc::DM1::kId)) {
+    note_trouble(frame, now);
+  } else if (troubles_.hear(frame, now)) {
+    const j1939::LongMessage& all = troubles_.message();
+    for (std::size_t i = 0; i < j1939::codes_of(all); ++i) {
+      note_trouble(j1939::single_code(all, i, kOwnAddress, now), now);
+    }
   }
+}
+
+void EcuListener::note_trouble(const CanFrame& frame, TimeUs now) {
   const auto trouble = Dbc::DM1::decode(frame.data);
   const std::uint32_t spn = trouble.spn_low.value | trouble.spn_high.value << 16U;
   if (spn > kDm1FirstSpn && spn < kDm1FirstSpn + kFaultCount) {

@@ -12,6 +12,9 @@
 #include "firmware/core/codes.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/can_frame.hpp"
+#include "hal/j1939/ids.hpp"
+#include "hal/j1939/transport.hpp"
+#include "hal/link/message_rules.hpp"
 #include "hal/link/stamp_echo.hpp"
 
 namespace graben::operate {
@@ -73,6 +76,7 @@ class EcuListener {
   template <class Message>
   void take_stroke(const CanFrame& frame, dbc::Physical Message::*signal, TimeUs now, Stroke& to);
   void take_trouble(const CanFrame& frame, TimeUs now);
+  void note_trouble(const CanFrame& single, TimeUs now);
 
   Heard<Dbc::EcuStatus> status_;
   Heard<Dbc::EcuHealth> health_;
@@ -82,6 +86,7 @@ class EcuListener {
   Heard<Dbc::EcuChecks> checks_;
   Heard<Dbc::SpoolCommand> spools_;
   std::array<Stroke, 3> strokes_;
+  j1939::BamReceiver troubles_{j1939::kActiveCodesPgn, kOwnAddress};  ///< DM1 of several codes.
   std::map<std::uint32_t, TimeUs> trouble_us_;  ///< SPN -> when it was said last.
   std::optional<std::uint8_t> other_station_;
   StampEcho<Dbc::EcuIdentity> echo_;

@@ -54,6 +54,13 @@ void BusRecord::see(const CanFrame& frame, bool from_controller) {
     return;
   }
   see_command<Kind>(frame);
+  if (several_.hear(frame, frame.stamp_us)) {
+    const j1939::LongMessage& all = several_.message();
+    for (std::size_t i = 0; i < j1939::codes_of(all); ++i) {
+      troubles.push_back(trouble_of<typename Kind::Dbc::DM1>(
+          j1939::single_code(all, i, kOwnAddress, frame.stamp_us)));
+    }
+  }
   switch (frame.id) {
     case Kind::Dbc::EcuStatus::kId:
       statuses.push_back(status_of<typename Kind::Dbc::EcuStatus>(frame));

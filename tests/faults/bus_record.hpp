@@ -10,6 +10,9 @@
 #include "firmware/core/codes.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/can_frame.hpp"
+#include "hal/j1939/ids.hpp"
+#include "hal/j1939/transport.hpp"
+#include "hal/link/message_rules.hpp"
 
 namespace graben::faults {
 
@@ -70,6 +73,8 @@ struct BusRecord {
  private:
   template <class Kind>
   void see_command(const CanFrame& frame);
+
+  j1939::BamReceiver several_{j1939::kActiveCodesPgn, kOwnAddress};  ///< Codes in one DM1.
 };
 
 /// Enable and pilot cut of a spool's command.

@@ -151,7 +151,13 @@ def check_life(root: Root, package: str):
     (root.path / WANTS).symlink_to("/usr/lib/systemd/system/graben-ecu.service")
     root.expect(0, [], "dpkg", "-i", "/tmp/graben-ecu.deb")
     root.demand(os.path.lexists(root.path / WANTS), "installed again, it is no longer enabled")
+    # What systemd makes of StateDirectory=, and the process puts there.
+    stored = root.path / "var/lib/private/graben-ecu/faults.a"
+    stored.parent.mkdir(parents=True)
+    stored.write_bytes(b"GRBR")
+    (root.path / "var/lib/graben-ecu").symlink_to("private/graben-ecu")
     root.expect(0, [], "dpkg", "-r", "graben-ecu")
+    root.demand(stored.exists(), "remove has taken what was stored")
     root.demand(settings.exists() and settings.read_text() == changed, "remove has taken the settings")
     root.demand(not os.path.lexists(root.path / WANTS), "removed, it is still enabled")
     root.demand(not (root.path / "usr/bin/graben-ecu").exists(), "removed, the program is still there")
@@ -162,6 +168,9 @@ def check_life(root: Root, package: str):
     own = root.path / "etc/graben/own.toml"
     own.write_text("# the administrator's\n")
     root.expect(0, [], "dpkg", "-P", "graben-ecu")
+    root.demand(not stored.parent.exists() and not os.path.lexists(root.path / "var/lib/graben-ecu"),
+                "purge has left what was stored")
+    stored.parents[1].rmdir()
     root.demand(own.exists(), "purge has taken the administrator's profile")
     own.unlink()
     own.parent.rmdir()

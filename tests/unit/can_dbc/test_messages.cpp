@@ -37,7 +37,7 @@ bool is_of_every_machine(const MessageInfo& message) {
   return std::find(std::begin(swings), std::end(swings), message.id) == std::end(swings);
 }
 
-// What is not built yet, as README.md of can_dbc has it.
+// Diagnosis, which is in no DBC, and what is not built yet, as README.md of can_dbc has both.
 struct Planned {
   std::uint32_t id;
   double per_second;

@@ -3,6 +3,8 @@
 
 #include "app/operate/ecu_listener.hpp"
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "hal/link/dm1.hpp"
@@ -127,4 +129,32 @@ TEST(trouble_codes_are_kept_while_they_are_repeated) {
   assert_int_equal(ecu.faults(kSecondUs).size(), 2);
   assert_int_equal(ecu.faults(1600 * kMillisecondUs).size(), 1);
   assert_true(ecu.faults(1600 * kMillisecondUs)[0] == Fault::kStrokeMissing);
+}
+
+TEST(several_faults_of_one_broadcast_are_all_heard) {
+  // J1939-21: 14 bytes in 2 packets, DM1; J1939-73: lamps, then 3 codes, SPN 520193, 520202,
+  // 520247.
+  const std::array<std::array<std::uint8_t, 8>, 3> packets = {{
+      {32, 14, 0, 2, 0xFF, 0xCA, 0xFE, 0x00},
+      {1, 0x14, 0xFF, 0x01, 0xF0, 0xE9, 1, 0x0A},
+      {2, 0xF0, 0xE9, 1, 0x37, 0xF0, 0xE9, 1},
+  }};
+  for (const bool is_whole : {true, false}) {
+    EcuListener ecu;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      CanFrame frame;
+      frame.id = i == 0 ? 0x1CECFF82 : 0x1CEBFF82;
+      frame.length = 8;
+      frame.data = packets[i];
+      if (is_whole || i != 1) {
+        ecu.hear(frame, static_cast<TimeUs>(i) * 60 * kMillisecondUs);
+      }
+    }
+    assert_int_equal(ecu.faults(kSecondUs).size(), is_whole ? 3 : 0);
+    if (is_whole) {
+      assert_true(ecu.faults(kSecondUs)[0] == static_cast<Fault>(1));
+      assert_true(ecu.faults(kSecondUs)[2] == static_cast<Fault>(55));
+    }
+    assert_true(ecu.faults(2 * kSecondUs).empty());
+  }
 }

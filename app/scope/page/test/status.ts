@@ -28,6 +28,21 @@ export function trouble(time_s: number, fault: number): string {
     [0, 0xff, spn & 0xff, (spn >> 8) & 0xff, (spn >> 16) << 5, 1, 0xff, 0xff]);
 }
 
+/// One broadcast of several, from this time on; `lost`: a packet that does not come.
+export function troubles(time_s: number, faults: readonly number[], lost = 0): string {
+  const bytes = [0x10, 0xff, ...faults.flatMap((fault) => {
+    const spn = 520192 + fault;
+    return [spn & 0xff, (spn >> 8) & 0xff, (spn >> 16) << 5 | 9, 1];
+  })];
+  const packets = Math.ceil(bytes.length / 7);
+  let text = line(time_s, 0x1cecff82, [32, bytes.length, 0, packets, 0xff, 0xca, 0xfe, 0]);
+  for (let packet = 1; packet <= packets; ++packet) {
+    const part = Array.from({length: 7}, (_, k) => bytes[7 * (packet - 1) + k] ?? 0xff);
+    text += packet === lost ? '' : line(time_s + 0.06 * packet, 0x1cebff82, [packet, ...part]);
+  }
+  return text;
+}
+
 export function identity(time_s: number, hash: number, version: number): string {
   return line(time_s, id('EcuIdentity'), [hash & 0xff, (hash >> 8) & 0xff, (hash >> 16) & 0xff,
     hash >>> 24, version, 0xff, 0xff, 0xff]);

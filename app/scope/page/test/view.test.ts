@@ -5,6 +5,7 @@ import type {Run, Setup} from '../src/model/api';
 import {loadDatabase, oldest_version} from '../src/model/dbc';
 import {State} from '../src/state';
 import {alarms_of} from '../src/view/faults/alarm_rules';
+import {active_codes} from '../src/view/basics/snapshot';
 import {align, cut, lower_bound} from '../src/view/basics/curves';
 import {BARS, distribution} from '../src/view/plots/plot_range';
 import {file_setup} from '../src/feed/file_setup';
@@ -17,7 +18,7 @@ import {unit_factor} from '../src/view/plots/traces';
 import {page_words} from '../src/view/basics/words';
 import {CandumpParser} from '../src/model/candump';
 import {bytes_of, line, store_of} from './make';
-import {SETUP, EXCAVATOR, id, stroke, status, trouble, identity, page} from './status';
+import {SETUP, EXCAVATOR, id, stroke, status, trouble, troubles, identity, page} from './status';
 import {DOZER_9T, EXCAVATOR_12T, EXCAVATOR_22T} from './machines';
 
 const alarms = (state: State): Record<string, string> => Object.fromEntries(
@@ -103,6 +104,21 @@ test('each fault is listed once, whether EcuStatus or DM1 tells it', () => {
   assert.equal(log.last(8)?.code, 17);
   assert.equal(log.next(1.11)?.time_s, 9);
   assert.equal(log.next(9), undefined);
+});
+
+test('several faults in one broadcast are each listed, and none of one that is not whole', () => {
+  const text = stroke(0) + status(0, 3, 0) + trouble(0.5, 17) + status(1, 5, 21) + troubles(1, [21, 17, 3])
+    + troubles(2, [21, 17, 3]) + troubles(3, [5, 6], 2) + trouble(3.5, 0);
+  const {store} = page(text);
+  const log = new FaultLog();
+  log.update(store);
+  assert.deepEqual(log.events.map(({time_s, code, dm1_only}) => [time_s, code, dm1_only]),
+    [[0.5, 17, true], [1, 21, false], [1.12, 3, true]]);
+  assert.deepEqual(active_codes(store, 1.5), [3, 17, 21]);
+  assert.deepEqual(active_codes(store, 3.4), [3, 17, 21]);
+  assert.deepEqual(active_codes(store, 3.6), []);
+  assert.equal(store.health.foreign, 0);
+  assert.equal(store.rows('DM1').count, 8);
 });
 
 test('a stopped machine and a plan that cannot work are alarms', () => {

@@ -4,6 +4,7 @@
 import type {
   Curve, Database, FrameStore, Kind, LogHealth, Machine, MessageDef, Reading, Rows,
 } from './api';
+import {Broadcasts, is_dm1, is_transport} from './broadcasts';
 import {BusEstimate} from './bus_frames';
 import {bits_in_second} from './bus_load';
 import {EMPTY, make_curve} from './curve';
@@ -46,6 +47,7 @@ export class PageStore implements FrameStore {
   private readonly curves = new Map<string, {key: string; curve: Curve}>();
   private estimate: ImuEstimate | BusEstimate | null = null;
   private readonly estimated = new Map<string, Series>();
+  private readonly broadcasts = new Broadcasts();
   private found_faults: {time_s: number; code: number}[] = [];
   private faults_read = 0;  ///< Of the frames ever seen of EcuStatus.
   private last_fault = 0;
@@ -82,6 +84,11 @@ export class PageStore implements FrameStore {
       this.oldest_s = Math.min(this.oldest_s, time_s[0]);
       this.newest_s = Math.max(this.newest_s, time_s[rows - 1]);
     }
+    const had_any = this.broadcasts.any;
+    this.broadcasts.take(block.columns);
+    if (this.broadcasts.any !== had_any) {
+      this.signals.clear();
+    }
     this.known ??= this.tell_database();
     this.heed_version();
     this.estimate_strokes();
@@ -98,6 +105,7 @@ export class PageStore implements FrameStore {
     this.curves.clear();
     this.estimate = null;
     this.estimated.clear();
+    this.broadcasts.clear();
     this.found_faults = [];
     this.faults_read = 0;
     this.last_fault = 0;
@@ -115,7 +123,7 @@ export class PageStore implements FrameStore {
     if (!(before_s > this.oldest_s)) {
       return;
     }
-    for (const series of [...this.series.values(), ...this.estimated.values()]) {
+    for (const series of [...this.series.values(), ...this.estimated.values(), this.broadcasts.all]) {
       series.drop_before(before_s);
     }
     this.oldest_s = before_s;
@@ -172,7 +180,8 @@ export class PageStore implements FrameStore {
   get health(): LogHealth {
     let foreign = this.count.unheard;
     for (const series of this.series.values()) {
-      foreign += this.known !== null && this.def_of(series) === null ? series.seen : 0;
+      const is_known = this.def_of(series) !== null || is_transport(series.key);
+      foreign += this.known !== null && !is_known ? series.seen : 0;
     }
     const {lines, malformed, first_malformed, backwards, lost, breaks, first_break} = this.count;
     return {
@@ -204,6 +213,9 @@ export class PageStore implements FrameStore {
   }
 
   private series_of(message: MessageDef): Series | null {
+    if (this.broadcasts.any && is_dm1(message.id)) {
+      return this.broadcasts.all;
+    }
     return this.series.get(16 * (message.id + EXTENDED) + 8) ?? this.at_other_priority(message)
       ?? this.estimated.get(message.name) ?? null;
   }

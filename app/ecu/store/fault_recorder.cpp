@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ecu/store/fault_recorder.hpp"
+
+#include <algorithm>
+
+namespace graben::ecu {
+namespace {
+constexpr TimeUs kPowerOnUs = 10 * kSecondUs;
+constexpr std::uint32_t kMostOccurrences = 126;
+}  // namespace
+
+void FaultRecorder::begin(const FaultHistory& history) {
+  for (std::size_t i = 0; i < stored_.size(); ++i) {
+    stored_[i] =
+        static_cast<std::uint8_t>(std::min(history.entry[i].occurrences, kMostOccurrences));
+  }
+}
+
+void FaultRecorder::forget(const FaultSet& cleared, TimeUs now_us) {
+  if (cleared.empty()) {
+    return;
+  }
+  for (Fault fault = cleared.first(); fault != Fault::kNone; fault = cleared.after(fault)) {
+    stored_[static_cast<std::size_t>(fault)] = 0;
+    // A frame that is not whole yet is forgotten with it.
+    waiting_.remove(fault);
+  }
+  if (rings_ != nullptr) {
+    static_cast<void>(rings_->events.put({Fault::kNone, now_us, cleared}));
+  }
+}
+
+void FaultRecorder::keep(const CycleSample& sample) {
+  if (--until_sample_ > 0) {
+    return;
+  }
+  until_sample_ = kSampleEvery;
+  kept_[next_] = sample;
+  next_ = (next_ + 1) % kFrameSamples;
+  count_ = count_ < kFrameSamples ? count_ + 1 : count_;
+}
+
+void FaultRecorder::note(const FaultSet& faults, TimeUs now_us) {
+  for (Fault fault = faults.first(); fault != Fault::kNone; fault = faults.after(fault)) {
+    if (there_.has(fault)) {
+      continue;
+    }
+    std::uint8_t& stored = stored_[static_cast<std::size_t>(fault)];
+    stored = static_cast<std::uint8_t>(std::min(stored + 1U, kMostOccurrences));
+    if (rings_ == nullptr) {
+      continue;
+    }
+    static_cast<void>(rings_->events.put({fault, now_us, {}}));
+    // One that goes and comes within its own frame is in that.
+    if (!waiting_.has(fault)) {
+      waiting_.add(fault);
+      came_us_[static_cast<std::size_t>(fault)] = now_us;
+    }
+  }
+  there_ = faults;
+}
+
+void FaultRecorder::hand_over_due(TimeUs now_us) {
+  FaultSet due;
+  TimeUs came_us = now_us;
+  for (Fault fault = waiting_.first(); fault != Fault::kNone; fault = waiting_.after(fault)) {
+    const TimeUs since_us = came_us_[static_cast<std::size_t>(fault)];
+    if (now_us - since_us >= kFrameAfterUs) {
+      due.add(fault);
+      came_us = since_us < came_us ? since_us : came_us;
+    }
+  }
+  if (due.empty()) {
+    return;
+  }
+  for (Fault fault = due.first(); fault != Fault::kNone; fault = due.after(fault)) {
+    waiting_.remove(fault);
+  }
+  FreezeFrame* const frame = rings_->frames.place();
+  if (frame == nullptr) {
+    return;
+  }
+  frame->faults = due;
+  frame->came_us = came_us;
+  frame->count = count_;
+  const std::size_t oldest = count_ < kFrameSamples ? 0 : next_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    frame->sample[i] = kept_[(oldest + i) % kFrameSamples];
+  }
+  rings_->frames.put();
+}
+
+void FaultRecorder::look(const CycleSample& sample, const FaultSet& faults) {
+  if (!has_started_) {
+    has_started_ = true;
+    start_us_ = sample.now_us;
+  }
+  keep(sample);
+  counts_ = counts_ || sample.mode != EcuMode::kSilent || sample.now_us - start_us_ >= kPowerOnUs;
+  if (sample.mode == EcuMode::kStopping) {
+    return;
+  }
+  if (counts_) {
+    note(faults, sample.now_us);
+  }
+  if (!waiting_.empty()) {
+    hand_over_due(sample.now_us);
+  }
+}
+
+}  // namespace graben::ecu

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ecu/store/folder_files.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace graben::ecu {
+namespace {
+
+constexpr mode_t kFolderMode = 0755;
+constexpr mode_t kFileMode = 0644;
+
+/// Bytes until the end or an error, which is negative.
+long read_all(int file, std::uint8_t* out, std::size_t room) {
+  std::size_t count = 0;
+  while (count < room) {
+    const ssize_t got = ::pread(file, out + count, room - count, static_cast<off_t>(count));
+    if (got < 0 && errno == EINTR) {
+      continue;
+    }
+    if (got <= 0) {
+      return got < 0 ? -1 : static_cast<long>(count);
+    }
+    count += static_cast<std::size_t>(got);
+  }
+  return static_cast<long>(count);
+}
+
+bool write_all(int file, const std::uint8_t* bytes, std::size_t count) {
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t put = ::pwrite(file, bytes + done, count - done, static_cast<off_t>(done));
+    if (put < 0 && errno != EINTR) {
+      return false;
+    }
+    done += put > 0 ? static_cast<std::size_t>(put) : 0;
+  }
+  return true;
+}
+
+}  // namespace
+
+FolderFiles::~FolderFiles() {
+  close_written();
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+  }
+}
+
+bool FolderFiles::failed(const char* name) {
+  error_.set("%s%s%s: %s", folder_.c_str(), name[0] == '\0' ? "" : "/", name, error_words(errno));
+  return false;
+}
+
+void FolderFiles::close_written() {
+  if (written_ >= 0) {
+    ::close(written_);
+    written_ = -1;
+  }
+}
+
+bool FolderFiles::open() {
+  constexpr int kFlags = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
+  if (descriptor_ < 0) {
+    descriptor_ = ::open(folder_.c_str(), kFlags);
+  }
+  if (descriptor_ < 0 && errno == ENOENT && missing_ == Missing::kIsMade &&
+      ::mkdir(folder_.c_str(), kFolderMode) == 0) {
+    descriptor_ = ::open(folder_.c_str(), kFlags);
+  }
+  return descriptor_ >= 0 || failed("");
+}
+
+int FolderFiles::open_file(const char* name, int flags) {
+  // A pipe would wait for its other end.
+  const int file =
+      ::openat(descriptor_, name, flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, kFileMode);
+  struct stat what {};
+  if (file >= 0 && (::fstat(file, &what) != 0 || !S_ISREG(what.st_mode))) {
+    ::close(file);
+    errno = EINVAL;
+    return -1;
+  }
+  return file;
+}
+
+long FolderFiles::read(const char* name, std::uint8_t* out, std::size_t room) {
+  if (!open()) {
+    return errno == ENOENT ? 0 : -1;
+  }
+  const int file = open_file(name, O_RDONLY);
+  if (file < 0) {
+    const bool is_absent = errno == ENOENT;
+    return is_absent || failed(name) ? 0 : -1;
+  }
+  const long count = read_all(file, out, room);
+  if (count < 0) {
+    static_cast<void>(failed(name));
+  }
+  ::close(file);
+  return count;
+}
+
+bool FolderFiles::write(const char* name, const std::uint8_t* bytes, std::size_t count) {
+  if (!open()) {
+    return false;
+  }
+  close_written();
+  written_ = open_file(name, O_WRONLY | O_CREAT);
+  if (written_ < 0 || !write_all(written_, bytes, count)) {
+    const bool result = failed(name);
+    close_written();
+    return result;
+  }
+  static_cast<void>(std::snprintf(written_name_, sizeof written_name_, "%s", name));
+  return true;
+}
+
+bool FolderFiles::sync(const char* name) {
+  if (!open()) {
+    return false;
+  }
+  const bool is_open = written_ >= 0 && std::strcmp(written_name_, name) == 0;
+  const int file = is_open ? written_ : open_file(name, O_RDONLY);
+  const bool done = file >= 0 && ::fsync(file) == 0;
+  const bool result = done || failed(name);
+  if (is_open) {
+    close_written();
+  } else if (file >= 0) {
+    ::close(file);
+  }
+  return result;
+}
+
+bool FolderFiles::sync_folder() { return open() && (::fsync(descriptor_) == 0 || failed("")); }
+
+}  // namespace graben::ecu

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Diagnosis and stored faults of the deployed process on a real CAN kernel: workshop.py OUT GRABEN_ECU. Messages are
+put together and decoded here, by J1939-21 and -73; the store's files by their layout and zlib's checksum."""
+
+import pathlib
+import struct
+import sys
+import zlib
+
+import bus_log
+import resident
+import run_programs
+import stats_file
+from bus_log import ECU_STATUS, SPN_BASE, STOPPING
+
+ANNOUNCE, PACKET, TO_TOOL, ACKNOWLEDGMENT = "1CECFF82", "1CEBFF82", "1CECF982", "18E8FF82"
+DM1, DM2, DM3, DM11, NOTHING = 0xFECA, 0xFECB, 0xFECC, 0xFED3, 0xFEEC
+DONE, REFUSED = 0, 1
+TOOL = 0xF9
+# What is missing without a machine: strokes, pressures, swash, engine, operator, identity, valve.
+MISSING = {1, 2, 3, 4, 5, 11, 20}
+# As J1939-21 has the first.
+GAPS_S, PERIOD_S = (0.050, 0.200), 1.05
+
+
+def broadcasts(log: list[bus_log.Frame]) -> tuple[list[tuple[float, int, bytes]], list[str]]:
+    """(time, group, bytes) of each that is whole, and what is wrong with others."""
+    found, problems, at = [], [], None
+    for frame in log:
+        data = frame.data
+        if frame.name == ANNOUNCE:
+            if at is not None:
+                problems.append(f"{frame.time}: a broadcast begins within another")
+            size, packets = struct.unpack("<HB", data[1:4])
+            if data[0] != 32 or packets != (size + 6) // 7:
+                problems.append(f"{frame.time}: announced by {data.hex()}")
+            at = (frame.time, size, packets, int.from_bytes(data[5:8], "little"), b"")
+        elif frame.name == PACKET:
+            last, size, packets, group, so_far = at
+            if not GAPS_S[0] <= frame.time - last <= GAPS_S[1] or data[0] != len(so_far) // 7 + 1:
+                problems.append(f"{frame.time}: packet {data[0]} after {frame.time - last:.3f} s")
+            so_far += data[1:]
+            at = (frame.time, size, packets, group, so_far)
+            if len(so_far) == 7 * packets:
+                found.append((frame.time, group, so_far[:size]))
+                at = None
+    return found, problems
+
+
+def codes(message: bytes) -> set[tuple[int, int]]:
+    """Number of the fault, failure mode."""
+    fours = [message[at:at + 4] for at in range(2, len(message), 4)]
+    return {((four[0] | four[1] << 8 | four[2] >> 5 << 16) - SPN_BASE, four[2] & 31) for four in fours}
+
+
+def check_bus(log: list[bus_log.Frame]) -> list[str]:
+    # Until it is told to end for the first time.
+    end = min(frame.time for frame in log if frame.name == ECU_STATUS and frame.mode == STOPPING)
+    log = [frame for frame in log if frame.time < end]
+    found, problems = broadcasts(log)
+    said = [(time, codes(message)) for time, group, message in found if group == DM1]
+    if not said or {fault for fault, _ in said[-1][1]} != MISSING or {mode for _, mode in said[-1][1]} - {9, 14, 19, 31}:
+        problems.append(f"DM1 says {sorted(said[-1][1]) if said else 'nothing'}")
+    late = [later[0] - earlier[0] for earlier, later in zip(said, said[1:]) if later[0] - earlier[0] > PERIOD_S]
+    # The tool does not take what it asked for alone: announced, then given up.
+    alone = [frame.data[0] for frame in log if frame.name == TO_TOOL]
+    if alone != [16, 255]:
+        problems.append(f"to the tool alone: {alone}")
+    answers = [(frame.data[0], frame.data[4], int.from_bytes(frame.data[5:8], "little"))
+               for frame in log if frame.name == ACKNOWLEDGMENT]
+    wanted = [(REFUSED, TOOL, NOTHING), (DONE, TOOL, DM3), (DONE, TOOL, DM11)]
+    if answers != wanted:
+        problems.append(f"acknowledged: {answers} instead of {wanted}")
+    # What is stored is active: there is nothing that was active before.
+    told = [frame.data for frame in log if frame.name == f"18{DM2:04X}82"]
+    if len(told) != 1 or told[0][2:6] != bytes(4):
+        problems.append(f"DM2: {[data.hex() for data in told]}")
+    print(f"workshop: {len(said)} DM1 of up to {max((len(one) for _, one in said), default=0)} codes, "
+          f"{len(answers)} acknowledgments")
+    return problems + ([f"DM1 late: {late}"] if late else [])
+
+
+def stored(folder: pathlib.Path) -> dict[int, int]:
+    """Fault -> occurrences, of the newest copy."""
+    newest, payload = -1, b""
+    for copy in "ab":
+        path = folder / f"faults.{copy}"
+        record = path.read_bytes() if path.exists() else bytes(32)
+        magic, version, kind, _, _, _, sequence, length, sum_ = struct.unpack("<4sHHHHIQII", record[:32])
+        body = record[32:32 + length]
+        if magic == b"GRBR" and zlib.crc32(record[:28] + body) == sum_ and (version, kind) == (1, 1) and sequence > newest:
+            newest, payload = sequence, body
+    entries = struct.iter_unpack("<HIIIIII", payload[20:])
+    return {fault: occurrences for fault, occurrences, *_ in entries}
+
+
+def check(out: pathlib.Path) -> list[str]:
+    problems = check_bus(bus_log.frames(out / "vcan0.log"))
+    before, after = stored(out / "before"), stored(out / "after")
+    if set(before) != MISSING or set(before.values()) != {1} or after:
+        problems.append(f"stored: {before}, after DM11 {after}")
+    frames = {int(path.name[6:9]) for path in (out / "before").glob("frame-*")}
+    if frames != MISSING:
+        problems.append(f"freeze frames of {sorted(frames)}")
+    for name, wanted in (("stats", ("1", "0", "0")), ("stats_again", ("1", "0", "0")), ("stats_full", ("1", "1", "0"))):
+        stats, wrong = stats_file.read(out / name)
+        problems += [f"{name}: {what}" for what in wrong]
+        if (said := tuple(stats[key] for key in ("store", "store_failed", "store_dropped"))) != wanted:
+            problems.append(f"{name}: store, store_failed, store_dropped {said} instead of {wanted}")
+    lines = (out / "ecu.err").read_text().splitlines()
+    begins = ["store /store: new, nothing was there; power cycle 1,", "store /store: read; power cycle 1,",
+              "store /full/store: new, nothing was there;", "store: /full/store/faults.a: No space left on device;"]
+    if len(lines) != len(begins) or not all(f"graben-ecu: {begin}" in line for begin, line in zip(begins, lines)):
+        problems.append(f"said: {lines}")
+    return [*problems, *resident.check(out / "memory")]
+
+
+if __name__ == "__main__":
+    sys.exit(run_programs.main("workshop.sh", check, timeout_s=90.0))

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=sh disable=SC1091
+# The deployed process without a machine, so that faults come, and a workshop's tool on vcan0: what it is
+# answered, what is stored, and what a disk that is full does. workshop.py judges what this leaves.
+. ./hil.sh
+. ./ecu.sh
+
+vcan_up vcan0
+record vcan0
+ecu_start vcan0 excavator_22t.toml --stats "$OUT/stats" --store /store
+sleep 12.5
+# DM2; a group that there is not, of us and of all; DM3; what is no request; DM1 of us alone, which is long.
+for request in 18EA82F9#CBFE00 18EA82F9#ECFE00 18EAFFF9#ECFE00 18EA82F9#CCFE00 18EA82F9#01 18EA82F9#CAFE00; do
+  cansend vcan0 "$request"
+  sleep 0.3
+done
+mkdir "$OUT/before" "$OUT/after"
+cp /store/* "$OUT/before"
+cansend vcan0 18EA82F9#D3FE00
+sleep 6
+ecu_stop
+cp /store/* "$OUT/after"
+
+# A start with what is there, by the way that systemd has it.
+STATE_DIRECTORY=/store ecu_start vcan0 excavator_22t.toml --stats "$OUT/stats_again"
+sleep 2
+ecu_stop
+
+mkdir /full
+mount -t tmpfs -o size=8k tmpfs /full || fail 'no small disk'
+dd if=/dev/zero of=/full/rest bs=4096 count=2 2>/dev/null
+ecu_start vcan0 excavator_22t.toml --stats "$OUT/stats_full" --store /full/store
+sleep 2
+ecu_stop

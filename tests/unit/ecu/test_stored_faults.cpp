@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stored faults from the cycle to the record: what counts, when, and with which frame.
+
+#include <cstdint>
+#include <string>
+
+#include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/ecu/fault_process.hpp"
+
+using namespace graben::test::stored;
+
+TEST(occurrences_times_and_power_cycles_are_counted) {
+  MemoryDisk disk;
+  {
+    Process process(disk, 1);
+    assert_true(holds(process.begin_text, "new, nothing was there; power cycle 1, "));
+    make_ready(process);  // until 2 s
+    process.pulse(kOne, 3.0);
+    process.pulse(kOne, 3.0);  // from 8 s on
+    process.run(10.0);
+    process.end();
+  }
+  FaultEntry entry = stored(disk).history.of(kOne);
+  assert_int_equal(entry.occurrences, 2);
+  assert_int_equal(entry.first_s, 2);
+  assert_int_equal(entry.last_s, 8);
+  assert_int_equal(entry.first_unix_s, kNoon_s + 2);
+  assert_int_equal(entry.last_unix_s, kNoon_s + 8);
+  assert_int_equal(stored(disk).history.cycles_since(kOne), 0);
+  {
+    // A process that starts again is no power cycle.
+    Process again(disk, 1);
+    assert_true(holds(again.begin_text, "read; power cycle 1, "));
+    make_ready(again);
+    again.end();
+  }
+  {
+    Process process(disk, 2);
+    assert_true(holds(process.begin_text,
+                      "read; power cycle 2, 0 h of operation, faults stored: 1, freeze frames: 1"));
+    process.clock_is_known = false;
+    make_ready(process);
+    process.pulse(kOther, 1.0);
+    process.end();
+  }
+  const StoredFaults found = stored(disk);
+  assert_int_equal(found.history.operation_s, 24 + 2 + 4);
+  assert_int_equal(found.history.cycles_since(kOne), 1);
+  assert_int_equal(found.history.cycles_since(kOther), 0);
+  assert_int_equal(found.history.of(kOther).last_s, 28);
+  assert_int_equal(found.history.of(kOther).last_unix_s, 0);
+  assert_int_equal(found.history.stored(), 2);
+}
+
+TEST(a_frame_is_from_half_a_second_before_to_a_fifth_after) {
+  MemoryDisk disk;
+  Process process(disk);
+  make_ready(process);
+  process.sample.mode = EcuMode::kActive;
+  process.sample.pressure_pa[2] = 2.5e6F;
+  process.sample.duty_ratio[3] = -0.25F;
+  process.sample.lambda = 0.75F;
+  process.run(1.0);
+  process.faults.add(kOne);
+  process.sample.mode = EcuMode::kFault;
+  process.run(10.0);
+  const StoredFaults found = stored(disk);
+  assert_int_equal(found.frames.size(), 1);
+  const StoredFrame& frame = found.frames[0];
+  assert_true(frame.fault == kOne && frame.kind == SampleKind::kExcavator);
+  assert_int_equal(frame.operation_s, 3);
+  assert_int_equal(frame.unix_s, kNoon_s + 3);
+  assert_int_equal(frame.count, 36);
+  assert_true(frame.sample[0].now_us >= -500'000 && frame.sample[0].now_us < -480'000);
+  assert_true(frame.sample[35].now_us > 180'000 && frame.sample[35].now_us <= 200'000);
+  for (std::size_t i = 0; i < frame.count; ++i) {
+    const CycleSample& sample = frame.sample[i];
+    assert_int_equal(sample.now_us, frame.sample[0].now_us + static_cast<TimeUs>(i) * 20'000);
+    assert_true(sample.mode == (sample.now_us < 0 ? EcuMode::kActive : EcuMode::kFault));
+    assert_near(sample.stroke[0], 3.0 + static_cast<double>(sample.now_us) / 1e6, 1e-6);
+    assert_near(sample.pressure_pa[2], 2.5e6, 0.0);
+    assert_near(sample.duty_ratio[3], -0.25, 0.0);
+    assert_near(sample.lambda, 0.75, 0.0);
+    assert_int_equal(sample.known, 1);
+  }
+}
+
+TEST(faults_that_come_together_have_each_their_frame) {
+  MemoryDisk disk;
+  Process process(disk);
+  make_ready(process);
+  process.faults.add(kOne);
+  process.faults.add(kOther);
+  process.run(10.0);
+  const StoredFaults found = stored(disk);
+  assert_int_equal(found.frames.size(), 2);
+  assert_true(found.frames[0].fault == kOne && found.frames[1].fault == kOther);
+  assert_int_equal(found.frames[0].sample[0].now_us, found.frames[1].sample[0].now_us);
+}
+
+TEST(what_is_cleared_is_forgotten_on_the_disk_too_with_its_frame) {
+  MemoryDisk disk;
+  Process process(disk);
+  make_ready(process);
+  process.pulse(kOne, 5.0);
+  process.faults.add(kOther);
+  process.run(5.0);
+  assert_int_equal(process.recorder().stored()[static_cast<std::size_t>(kOne)], 1);
+  assert_int_equal(stored(disk).frames.size(), 2);
+  FaultSet cleared;
+  cleared.add(kOne);
+  cleared.add(kOther);
+  assert_true(process.recorder().can_forget());
+  process.recorder().forget(cleared, process.now_us);
+  process.run(10.0);
+  assert_int_equal(stored(disk).history.stored(), 0);
+  assert_int_equal(stored(disk).frames.size(), 0);
+  // One that is there has not come again by that; one that comes again has a new frame.
+  process.faults.add(kOne);
+  while (stored(disk).history.stored() == 0) {
+    process.run(0.1);
+  }
+  assert_int_equal(stored(disk).frames.size(), 0);
+  process.run(10.0);
+  assert_int_equal(stored(disk).history.of(kOther).occurrences, 0);
+  assert_int_equal(stored(disk).history.of(kOne).occurrences, 1);
+  assert_int_equal(stored(disk).frames.size(), 1);
+  assert_int_equal(stored(disk).frames[0].operation_s, 27);
+  process.end();
+  FaultRecorder again(nullptr);
+  again.begin(stored(disk).history);
+  assert_int_equal(again.stored()[static_cast<std::size_t>(kOne)], 1);
+  assert_int_equal(again.stored()[static_cast<std::size_t>(kOther)], 0);
+}
+
+TEST(at_power_on_a_node_may_be_missing_for_a_while) {
+  MemoryDisk disk;
+  Process process(disk);
+  process.faults.add(kOne);
+  process.run(9.0);
+  process.faults.remove(kOne);
+  process.faults.add(kOther);
+  process.run(9.0);
+  process.end();
+  assert_int_equal(stored(disk).history.of(kOne).occurrences, 0);
+  assert_int_equal(stored(disk).history.of(kOther).occurrences, 1);
+  assert_int_equal(stored(disk).history.of(kOther).first_s, 10);
+}
+
+TEST(what_goes_missing_at_the_end_is_no_fault) {
+  MemoryDisk disk;
+  Process process(disk);
+  make_ready(process);
+  process.sample.mode = EcuMode::kStopping;
+  process.faults.add(kOne);
+  process.run(1.0);
+  process.end();
+  assert_int_equal(stored(disk).history.stored(), 0);
+}
+
+TEST(another_profile_is_another_machine) {
+  MemoryDisk disk;
+  {
+    Process process(disk, 1);
+    make_ready(process);
+    process.pulse(kOne, 5.0);
+    process.end();
+  }
+  Process other(disk, 2, kProfile + 1);
+  assert_true(holds(other.begin_text, "new, what was there is of another profile; power cycle 1"));
+  assert_true(holds(other.begin_text, "freeze frames of another profile: 1"));
+  make_ready(other);
+  other.end();
+  assert_int_equal(stored(disk).history.stored(), 0);
+  assert_int_equal(stored(disk).profile_hash, kProfile + 1);
+  assert_int_equal(stored(disk).frames.size(), 0);
+  // The same fault, whose own frame is not written yet, has not that of the other machine.
+  other.faults.add(kOne);
+  while (stored(disk).history.stored() == 0) {
+    other.run(0.1);
+  }
+  assert_int_equal(stored(disk).frames.size(), 0);
+  other.run(1.0);
+  assert_int_equal(stored(disk).frames.size(), 1);
+}
+
+TEST(a_damaged_store_starts_and_names_its_files) {
+  MemoryDisk disk;
+  {
+    Process process(disk, 1);
+    make_ready(process);
+    process.pulse(kOne, 5.0);
+    process.end();
+  }
+  disk.file("faults.a")[40] ^= 1;
+  assert_true(holds(Process(disk, 2).begin_text, "; damaged: faults.a (the other copy counts)"));
+  disk.file("faults.b")[40] ^= 1;
+  disk.file("frame-001.a")[40] ^= 1;
+  Process process(disk, 2);
+  assert_string_equal(process.begin_text.c_str(),
+                      "new, what was there is damaged; power cycle 1, 0 h of operation, faults "
+                      "stored: 0, freeze frames: 0; damaged: faults.a, faults.b, frame-001.a");
+  const StoredFaults found = stored(disk);
+  assert_false(found.has_history);
+  assert_int_equal(found.damaged.size(), 3);
+  assert_string_equal(found.damaged[2].c_str(), "frame-001.a");
+}
