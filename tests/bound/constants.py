@@ -61,10 +61,18 @@ class Source:
                 return int(found[1])
         raise Unknown(f"{name} has no constant {word}")
 
+    def size(self, name, word):
+        """Of a std::array."""
+        for file in self.files_of(name):
+            if found := re.search(rf"std::array<[^;=]*,\s*(\d+)>\s+{re.escape(word)}\b", self.text(file)):
+                return int(found[1])
+        raise Unknown(f"{name} has no array {word}")
+
     def value(self, name, expression):
         """Of whole numbers, + - * /, and constants."""
         plain = re.sub(r"static_cast<[\w: ]+>", "", expression.replace("'", "").replace("\n", " ")).replace("/", "//")
         plain = re.sub(r"\b(\d+)[uUlL]+\b", r"\1", plain)
+        plain = re.sub(r"\b(k\w+)\.size\(\)", lambda word: str(self.size(name, word[1])), plain)
         plain = NAME.sub(lambda word: str(self.constant(name, word[0])), plain)
         try:
             return self.number(ast.parse(plain.strip(), mode="eval").body)
