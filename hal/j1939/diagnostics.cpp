@@ -23,6 +23,10 @@ constexpr TimeUs kOthersWithinUs = 640 * kMillisecondUs;
 constexpr TimeUs kRightAfterUs = 20 * kMillisecondUs;
 /// A tool has given up by then (J1939-21 has 1.25 s).
 constexpr TimeUs kMostWaitUs = 1250 * kMillisecondUs;
+/// A request that could not even be refused by then.
+constexpr TimeUs kStaleUs = kMostWaitUs + 100 * kMillisecondUs;
+/// A tool waits 750 ms for a packet (T1). A broadcast's, which may be 200 ms apart, makes room.
+constexpr TimeUs kConnectionWaitsUs = 480 * kMillisecondUs;
 
 FaultSet stored_and(bool are_active, const DiagnosticState& state) {
   FaultSet set;
@@ -112,24 +116,49 @@ LongMessage Diagnostics::codes(std::uint32_t pgn, const DiagnosticState& state) 
              : trouble_codes(pgn, stored_and(false, state), state.active, state.stored);
 }
 
+bool Diagnostics::has_news(const FaultSet& active, TimeUs now) const {
+  bool any = false;
+  for (int number = 1; number < kFaultCount; ++number) {
+    const auto fault = static_cast<Fault>(number);
+    const TimeUs last_us = news_us_[static_cast<std::size_t>(number)];
+    const bool is_allowed = last_us == 0 || now < last_us || now - last_us >= kSecondUs - kSlackUs;
+    any = any || (active.has(fault) != said_.has(fault) && is_allowed);
+  }
+  return any;
+}
+
+void Diagnostics::begin_active(const DiagnosticState& state, TimeUs now) {
+  bam_.begin(codes(kActiveCodesPgn, state));
+  for (int number = 1; number < kFaultCount; ++number) {
+    const auto fault = static_cast<Fault>(number);
+    if (state.active.has(fault) != said_.has(fault)) {
+      news_us_[static_cast<std::size_t>(number)] = now;
+    }
+  }
+  said_ = state.active;
+  said_us_ = now;
+  has_said_ = true;
+}
+
 void Diagnostics::send_active(const DiagnosticState& state, TimeUs now, DiagnosticWork& work) {
   const bool are_several = count_of(state.active) > 1;
   const bool is_saying = bam_.is_busy() && bam_.pgn() == kActiveCodesPgn;
-  if (has_held_ && !are_several && !is_saying) {
-    put(work, held_);
-  }
-  has_held_ = false;
   if (!are_several) {
+    owes_single_ = owes_single_ || has_said_;
     has_said_ = false;
+    if ((has_held_ || owes_single_) && !is_saying) {
+      put(work, owes_single_ ? frame_of(codes(kActiveCodesPgn, state), own_, now) : held_);
+      has_held_ = false;
+      owes_single_ = false;
+    }
     return;
   }
-  const bool is_due = !has_said_ || !(said_ == state.active) || now < said_us_ ||
-                      now - said_us_ >= kSecondUs - kSlackUs;
+  has_held_ = false;
+  owes_single_ = false;
+  const bool is_due = !has_said_ || now < said_us_ || now - said_us_ >= kSecondUs - kSlackUs ||
+                      has_news(state.active, now);
   if (is_due && !bam_.is_busy()) {
-    bam_.begin(codes(kActiveCodesPgn, state));
-    said_ = state.active;
-    said_us_ = now;
-    has_said_ = true;
+    begin_active(state, now);
   }
 }
 
@@ -228,7 +257,7 @@ void Diagnostics::drop_request(std::size_t at) {
 
 void Diagnostics::answer(const DiagnosticState& state, TimeUs now, DiagnosticWork& work) {
   // One that nobody waits for any more; they stand in the order in which they came.
-  if (requests_ > 0 && now - request_[0].since_us > kMostWaitUs) {
+  if (requests_ > 0 && now - request_[0].since_us > kStaleUs) {
     drop_request(0);
     dropped_ += dropped_ < UINT32_MAX ? 1U : 0U;
   }
@@ -242,21 +271,36 @@ void Diagnostics::answer(const DiagnosticState& state, TimeUs now, DiagnosticWor
   }
 }
 
+bool Diagnostics::next_of_transport(TimeUs now, CanFrame& frame) {
+  if (now >= transport_us_ && now - transport_us_ < kTransportGapUs) {
+    return false;
+  }
+  const bool was_busy = bam_.is_busy();
+  const bool tool_waits = was_busy && connection_.is_busy() &&
+                          (now < connection_us_ || now - connection_us_ >= kConnectionWaitsUs);
+  bool is_to_tool = tool_waits && connection_.due(now, frame);
+  if (!is_to_tool && !bam_.due(now, frame)) {
+    is_to_tool = !bam_.is_busy() && connection_.due(now, frame);
+    if (!is_to_tool) {
+      return false;
+    }
+  }
+  transport_us_ = now;
+  connection_us_ = is_to_tool ? now : connection_us_;
+  if (was_busy && !bam_.is_busy() && bam_.pgn() == kActiveCodesPgn) {
+    active_done_us_ = now;
+  }
+  return true;
+}
+
 DiagnosticWork Diagnostics::step(const DiagnosticState& state, TimeUs now) {
   DiagnosticWork work;
   count_active(state.active);
   send_active(state, now, work);
   answer(state, now, work);
-  const bool has_waited = now < transport_us_ || now - transport_us_ >= kTransportGapUs;
-  const bool was_busy = bam_.is_busy();
   CanFrame frame;
-  // A broadcast first: it has its second.
-  if (has_waited && (bam_.due(now, frame) || (!bam_.is_busy() && connection_.due(now, frame)))) {
+  if (next_of_transport(now, frame)) {
     put(work, frame);
-    transport_us_ = now;
-    if (was_busy && !bam_.is_busy() && bam_.pgn() == kActiveCodesPgn) {
-      active_done_us_ = now;
-    }
   }
   return work;
 }

@@ -11,7 +11,7 @@
 /// - A request to us alone is answered, by a connection where it is long; for a group that we do
 ///   not have, or may not clear, with a negative acknowledgment. One to all is never acknowledged.
 ///
-/// What that takes of a bus is planned (README.md of can_dbc): frames of the transport are 50 ms
+/// What that takes of a bus is planned (README.md of can_dbc): frames of the transport are 60 ms
 /// apart, 5 requests a second are answered. Up to 8 wait for their turn, for 1.25 s, the same one
 /// once; more are dropped. A cycle sends three frames at most.
 
@@ -85,6 +85,12 @@ class Diagnostics {
   void acknowledge(std::uint8_t control, const Request& request, TimeUs now, DiagnosticWork& work);
   [[nodiscard]] LongMessage codes(std::uint32_t pgn, const DiagnosticState& state) const;
   [[nodiscard]] bool is_sent_by_itself(std::uint32_t pgn) const;
+  /// A code has come or gone that has not in the second before (J1939-73): one that comes and goes
+  /// all the time must not fill the bus.
+  [[nodiscard]] bool has_news(const FaultSet& active, TimeUs now) const;
+  void begin_active(const DiagnosticState& state, TimeUs now);
+  /// The frame of a transport that is due, if one is.
+  [[nodiscard]] bool next_of_transport(TimeUs now, CanFrame& frame);
 
   std::uint8_t own_;
   const std::uint32_t* ids_;
@@ -96,16 +102,20 @@ class Diagnostics {
   std::uint32_t dropped_ = 0;
   std::array<TimeUs, kAnswersASecond> answered_us_{};  ///< The last ones, in a ring.
   std::size_t answers_ = 0;
-  TimeUs transport_us_ = 0;  ///< When its last frame was sent.
+  TimeUs transport_us_ = 0;   ///< When its last frame was sent,
+  TimeUs connection_us_ = 0;  ///< and the last one to a tool alone.
 
   FaultSet active_;            ///< In the last cycle.
   Occurrences since_start_{};  ///< Of active codes, as single ones have it.
   FaultSet said_;              ///< By the last BAM of DM1.
   TimeUs said_us_ = 0;
   bool has_said_ = false;
+  /// When it was last said that a code has come or gone; 0: not yet.
+  std::array<TimeUs, kFaultCount> news_us_{};
   TimeUs active_done_us_ = 0;  ///< When the last BAM of DM1 has ended.
   CanFrame held_;
   bool has_held_ = false;
+  bool owes_single_ = false;  ///< After several, that there is one or none.
 };
 
 }  // namespace graben::j1939

@@ -4,6 +4,7 @@
 /// acknowledgment; J1939-73: lamps and trouble codes) and from nothing of ours: what it makes of
 /// frames is what another maker's would. It fails where a sender breaks a rule.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -90,6 +91,7 @@ class J1939Reader {
   std::vector<Message> messages;
   std::vector<Message> controls;  ///< TP.CM but announcements.
   std::size_t frames = 0;
+  long long most_gap_us = 0;  ///< Between packets to one receiver.
 
  private:
   struct Session {
@@ -129,6 +131,9 @@ class J1939Reader {
     if (told.receiver == 255) {
       const long long gap_us = told.at_us - of.at_us;
       assert_true(gap_us >= 50'000 && gap_us <= 200'000);
+    }
+    if (told.receiver != 255 && of.next > 1) {
+      most_gap_us = std::max(most_gap_us, told.at_us - of.at_us);
     }
     of.at_us = told.at_us;
     for (std::size_t i = 1; i < 8; ++i) {

@@ -176,6 +176,79 @@ TEST(a_receiver_that_falls_silent_ends_its_connection) {
   assert_int_equal(ecu.tool.controls[1].at_us - ecu.tool.controls[0].at_us, 1'250'000);
 }
 
+/// A tool that answers its RTS at once, as long as the bus lets it.
+void take_all(Ecu& ecu, std::size_t controls_before) {
+  if (ecu.tool.controls.size() > controls_before) {
+    const auto& rts = ecu.tool.controls.back();
+    ecu.raw(0x1CEC0000U | kOwn << 8U | kTool, 8,
+            {17, static_cast<std::uint8_t>(rts.bytes[3]), 1, 0xFF, 0xFF, 0xCB, 0xFE, 0x00});
+  }
+}
+
+TEST(a_code_that_comes_and_goes_does_not_fill_the_bus) {
+  Ecu ecu;
+  for (int number = 1; number < 8; ++number) {
+    ecu.activate(static_cast<Fault>(number));
+  }
+  for (int number = 20; number < 31; ++number) {
+    ecu.store(static_cast<Fault>(number), 1);
+  }
+  const auto flap = [&](int cycle) {
+    if (cycle % 10 == 0) {
+      if (ecu.state.active.has(Fault::kStrokeMissing)) {
+        ecu.state.active.remove(Fault::kStrokeMissing);
+      } else {
+        ecu.activate(Fault::kStrokeMissing);
+      }
+    }
+  };
+  const std::size_t controls = ecu.tool.controls.size();
+  ecu.request(kDm2);
+  for (int cycle = 0; cycle < 3000; ++cycle) {
+    flap(cycle);
+    const std::size_t before = std::max(controls, ecu.tool.controls.size());
+    ecu.cycle();
+    take_all(ecu, before);
+  }
+  // Each second's, and one for the code in it.
+  assert_in_range(ecu.tool.of(kDm1).size(), 29, 61);
+  // A tool waits 750 ms for a packet.
+  assert_int_equal(ecu.tool.of(kDm2).size(), 1);
+  assert_true(ecu.tool.most_gap_us <= 750'000);
+}
+
+TEST(a_request_that_has_to_wait_too_long_is_told_so) {
+  Ecu ecu;
+  for (int number = 20; number < 31; ++number) {
+    ecu.store(static_cast<Fault>(number), 1);
+  }
+  // Another tool has the only connection, and holds it.
+  ecu.request(kDm2, kOwn, 0xF7);
+  ecu.run(0.1);
+  ecu.request(kDm2);
+  for (int cycle = 0; cycle < 200; ++cycle) {
+    if (cycle % 40 == 0) {
+      ecu.raw(0x1CEC0000U | kOwn << 8U | 0xF7U, 8, {17, 0, 0xFF, 0xFF, 0xFF, 0xCB, 0xFE, 0x00});
+    }
+    ecu.cycle();
+    // A clock is never just so late.
+    ecu.now += cycle % 2 == 0 ? 300 : -300;
+  }
+  assert_true(ecu.acknowledged(kDm2) == Acks{3});
+}
+
+TEST(what_a_broadcast_holds_up_comes_right_after_it) {
+  Ecu ecu;
+  for (int number = 1; number < 11; ++number) {
+    ecu.activate(static_cast<Fault>(number));
+  }
+  ecu.run(0.05);
+  ecu.state.active = {};
+  ecu.run(0.55);
+  assert_true(ecu.tool.messages.back().codes().empty());
+  assert_false(ecu.tool.messages.back().red());
+}
+
 TEST(clearing_forgets_records_and_nothing_else) {
   Ecu ecu;
   ecu.store(Fault::kStrokeMissing, 3);
