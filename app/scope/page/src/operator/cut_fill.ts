@@ -9,7 +9,7 @@ import {fixed} from '../view/basics/format';
 import {dozer_state, excavator_state} from '../scene/machine_state';
 import type {ShownTask} from '../scene/shown_task';
 
-/// So near is on it: what a dozer is held to (README, ten numbers).
+/// So near is on it: what a dozer is held to (README, Numbers).
 export const ON_GRADE_M = 0.01;
 
 export interface Off {

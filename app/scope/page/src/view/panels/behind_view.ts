@@ -23,7 +23,7 @@ const GROUND_STEP_M = 0.05;
 const LINE = 2.5;
 const DIGITS_PX = 12;
 const BORDER_PX = 5;
-/// So near is on the design: what a dozer is held to (README, ten numbers).
+/// So near is on the design: what a dozer is held to (README, Numbers).
 const ON_GRADE_MM = 10;
 
 /// What the view reads of the scene and its switches.
