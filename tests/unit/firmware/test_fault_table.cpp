@@ -100,6 +100,10 @@ TEST(every_fault_keeps_its_promise) {
     assert_int_equal(row.red_stop, stops);
     assert_int_equal(row.block, promise.block);
     assert_int_equal(cuts_pilot(promise.fault), promise.pilot);
+    FaultSet alone;
+    alone.add(promise.fault);
+    assert_int_equal(has_red_stop(alone), stops);
+    assert_int_equal(has_amber_warning(alone), !stops);
     FaultSet among;
     among.add(Fault::kBusOff);
     assert_false(cuts_pilot(among));
@@ -116,6 +120,7 @@ TEST(every_fault_keeps_its_promise) {
 
 /// What is no fault does nothing, lights no lamp.
 TEST(what_is_no_fault_does_nothing) {
+  assert_false(has_red_stop({}) || has_amber_warning({}) || cuts_pilot(FaultSet()));
   for (const int code : {0, kFaultCount, 255}) {
     const FaultRow& row = fault_row(static_cast<Fault>(code));
     assert_int_equal(row.fault, Fault::kNone);
