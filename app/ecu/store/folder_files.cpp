@@ -52,8 +52,10 @@ FolderFiles::~FolderFiles() {
   }
 }
 
-bool FolderFiles::failed(const char* name) {
-  error_.set("%s%s%s: %s", folder_.c_str(), name[0] == '\0' ? "" : "/", name, error_words(errno));
+bool FolderFiles::failed(const char* name) { return failed(name, error_words(errno)); }
+
+bool FolderFiles::failed(const char* name, const char* why) {
+  error_.set("%s%s%s: %s", folder_.c_str(), name[0] == '\0' ? "" : "/", name, why);
   return false;
 }
 
@@ -74,6 +76,27 @@ bool FolderFiles::open() {
     descriptor_ = ::open(folder_.c_str(), kFlags);
   }
   return descriptor_ >= 0 || failed("");
+}
+
+Place FolderFiles::look() {
+  const int before = descriptor_;
+  descriptor_ = -1;
+  const bool is_open = open();
+  if (before < 0) {
+    return is_open ? Place::kAnother : Place::kNone;
+  }
+  // As long as `before` is open, no other folder can have its number.
+  struct stat was {};
+  struct stat is {};
+  if (is_open && ::fstat(before, &was) == 0 && ::fstat(descriptor_, &is) == 0 &&
+      was.st_dev == is.st_dev && was.st_ino == is.st_ino) {
+    ::close(descriptor_);
+    descriptor_ = before;
+    return Place::kSame;
+  }
+  close_written();
+  ::close(before);
+  return is_open ? Place::kAnother : Place::kNone;
 }
 
 int FolderFiles::open_file(const char* name, int flags) {

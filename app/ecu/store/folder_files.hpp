@@ -19,11 +19,12 @@ class FolderFiles : public StoreFiles {
       : folder_(std::move(folder)), missing_(missing) {}
   ~FolderFiles() override;
 
-  /// True if the folder is open; error() says why not. Each other call tries again, for a disk that
-  /// comes later.
+  /// True if the folder is open; error() says why not. Each other call tries again.
   [[nodiscard]] bool open();
   [[nodiscard]] const std::string& folder() const { return folder_; }
 
+  /// Opens the folder anew: it may have been mounted over, or be gone with its disk.
+  [[nodiscard]] Place look() override;
   [[nodiscard]] long read(const char* name, std::uint8_t* out, std::size_t room) override;
   /// Nothing but a regular file is written to: neither a link nor a pipe of that name.
   [[nodiscard]] bool write(const char* name, const std::uint8_t* bytes, std::size_t count) override;
@@ -33,6 +34,7 @@ class FolderFiles : public StoreFiles {
 
  private:
   bool failed(const char* name);
+  bool failed(const char* name, const char* why);
   int open_file(const char* name, int flags);
   void close_written();
 

@@ -47,8 +47,8 @@ StoredFaults read_stored_faults(StoreFiles& files) {
     }
     StoredFrame frame;
     if (read_frame(record.data() + kHeadBytes, found.head.length, frame)) {
-      // An older one is of an occurrence that has been cleared.
-      if (frame.operation_s >= result.history.of(static_cast<Fault>(number)).first_s) {
+      // Another one is of occurrences that have been cleared, or of another time of this profile.
+      if (result.history.of(static_cast<Fault>(number)).covers(frame.operation_s)) {
         result.frames.push_back(frame);
       }
     } else {

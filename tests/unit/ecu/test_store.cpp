@@ -245,6 +245,34 @@ TEST(a_folder_that_cannot_be_is_said_and_tried_again) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(a_folder_that_is_mounted_over_is_another_place) {
+  const std::string folder = new_folder();
+  const std::string place = folder + "/store";
+  {
+    FolderFiles files(folder + "/disk");
+    Store store(files, kHash);
+    assert_true(write(store, kFirst, 1) && write(store, kFirst, 2) && write(store, kFirst, 3));
+  }
+  FolderFiles files(place);
+  Store store(files, kHash);
+  assert_true(store.look() == Place::kAnother && write(store, kFirst, 9));
+  assert_true(store.look() == Place::kSame);
+  std::filesystem::rename(place, folder + "/hidden");
+  std::filesystem::rename(folder + "/disk", place);
+  assert_true(store.look() == Place::kAnother);
+  assert_int_equal(read_number(store, kFirst), 3);
+  assert_true(write(store, kFirst, 4));
+  assert_int_equal(read_number(store, kFirst), 4);
+  std::filesystem::rename(folder, folder + "-gone");
+  assert_true(store.look() == Place::kNone);
+  assert_true(store.read(kFirst).state == ReadState::kNothing);
+  assert_false(write(store, kFirst, 5));
+  std::filesystem::rename(folder + "-gone", folder);
+  assert_true(store.look() == Place::kAnother);
+  assert_int_equal(read_number(store, kFirst), 4);
+  std::filesystem::remove_all(folder);
+}
+
 TEST(what_is_no_file_is_neither_read_nor_written) {
   const std::string folder = new_folder();
   assert_int_equal(mkfifo((folder + "/faults.a").c_str(), 0644), 0);
