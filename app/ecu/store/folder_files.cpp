@@ -2,6 +2,7 @@
 #include "app/ecu/store/folder_files.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +15,9 @@ namespace {
 
 constexpr mode_t kFolderMode = 0755;
 constexpr mode_t kFileMode = 0644;
+/// Whoever may open it may keep us from storing.
+constexpr mode_t kLockMode = 0600;
+constexpr const char* kLock = "lock";
 
 /// Bytes until the end or an error, which is negative.
 long read_all(int file, std::uint8_t* out, std::size_t room) {
@@ -43,13 +47,19 @@ bool write_all(int file, const std::uint8_t* bytes, std::size_t count) {
   return true;
 }
 
+void close_one(int& file) {
+  if (file >= 0) {
+    ::close(file);
+    file = -1;
+  }
+}
+
 }  // namespace
 
 FolderFiles::~FolderFiles() {
-  close_written();
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
-  }
+  close_one(written_);
+  close_one(lock_);
+  close_one(descriptor_);
 }
 
 bool FolderFiles::failed(const char* name) { return failed(name, error_words(errno)); }
@@ -59,11 +69,17 @@ bool FolderFiles::failed(const char* name, const char* why) {
   return false;
 }
 
-void FolderFiles::close_written() {
-  if (written_ >= 0) {
-    ::close(written_);
-    written_ = -1;
+bool FolderFiles::lock() {
+  if (missing_ == Missing::kIsAnError || lock_ >= 0) {
+    return true;
   }
+  lock_ = ::openat(descriptor_, kLock, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK,
+                   kLockMode);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    close_one(lock_);
+    return failed(kLock, "another process stores there");
+  }
+  return true;
 }
 
 bool FolderFiles::open() {
@@ -75,28 +91,31 @@ bool FolderFiles::open() {
       ::mkdir(folder_.c_str(), kFolderMode) == 0) {
     descriptor_ = ::open(folder_.c_str(), kFlags);
   }
-  return descriptor_ >= 0 || failed("");
+  if (descriptor_ < 0) {
+    return failed("");
+  }
+  if (!lock()) {
+    close_one(descriptor_);
+    return false;
+  }
+  return true;
 }
 
 Place FolderFiles::look() {
-  const int before = descriptor_;
-  descriptor_ = -1;
-  const bool is_open = open();
-  if (before < 0) {
-    return is_open ? Place::kAnother : Place::kNone;
+  if (descriptor_ < 0) {
+    return open() ? Place::kAnother : Place::kNone;
   }
-  // As long as `before` is open, no other folder can have its number.
   struct stat was {};
   struct stat is {};
-  if (is_open && ::fstat(before, &was) == 0 && ::fstat(descriptor_, &is) == 0 &&
+  // As long as it is open, no other folder can have its number.
+  if (::fstat(descriptor_, &was) == 0 && ::stat(folder_.c_str(), &is) == 0 &&
       was.st_dev == is.st_dev && was.st_ino == is.st_ino) {
-    ::close(descriptor_);
-    descriptor_ = before;
     return Place::kSame;
   }
-  close_written();
-  ::close(before);
-  return is_open ? Place::kAnother : Place::kNone;
+  close_one(written_);
+  close_one(lock_);
+  close_one(descriptor_);
+  return open() ? Place::kAnother : Place::kNone;
 }
 
 int FolderFiles::open_file(const char* name, int flags) {
@@ -133,11 +152,11 @@ bool FolderFiles::write(const char* name, const std::uint8_t* bytes, std::size_t
   if (!open()) {
     return false;
   }
-  close_written();
+  close_one(written_);
   written_ = open_file(name, O_WRONLY | O_CREAT);
   if (written_ < 0 || !write_all(written_, bytes, count)) {
     const bool result = failed(name);
-    close_written();
+    close_one(written_);
     return result;
   }
   static_cast<void>(std::snprintf(written_name_, sizeof written_name_, "%s", name));
@@ -153,7 +172,7 @@ bool FolderFiles::sync(const char* name) {
   const bool done = file >= 0 && ::fsync(file) == 0;
   const bool result = done || failed(name);
   if (is_open) {
-    close_written();
+    close_one(written_);
   } else if (file >= 0) {
     ::close(file);
   }
