@@ -47,6 +47,21 @@ bool write_all(int file, const std::uint8_t* bytes, std::size_t count) {
   return true;
 }
 
+/// What stands in a file's place; null if it is one, or nothing.
+const char* other_kind(int folder, const char* name) {
+  struct stat what {};
+  if (::fstatat(folder, name, &what, AT_SYMLINK_NOFOLLOW) != 0 || S_ISREG(what.st_mode)) {
+    return nullptr;
+  }
+  if (S_ISLNK(what.st_mode)) {
+    return "is a link, no file";
+  }
+  if (S_ISDIR(what.st_mode)) {
+    return "is a folder, no file";
+  }
+  return S_ISFIFO(what.st_mode) ? "is a pipe, no file" : "is no regular file";
+}
+
 void close_one(int& file) {
   if (file >= 0) {
     ::close(file);
@@ -118,6 +133,12 @@ Place FolderFiles::look() {
   return open() ? Place::kAnother : Place::kNone;
 }
 
+bool FolderFiles::file_failed(const char* name) {
+  const int error = errno;
+  const char* const other = other_kind(descriptor_, name);
+  return failed(name, other != nullptr ? other : error_words(error));
+}
+
 int FolderFiles::open_file(const char* name, int flags) {
   // A pipe would wait for its other end.
   const int file =
@@ -138,11 +159,11 @@ long FolderFiles::read(const char* name, std::uint8_t* out, std::size_t room) {
   const int file = open_file(name, O_RDONLY);
   if (file < 0) {
     const bool is_absent = errno == ENOENT;
-    return is_absent || failed(name) ? 0 : -1;
+    return is_absent || file_failed(name) ? 0 : -1;
   }
   const long count = read_all(file, out, room);
   if (count < 0) {
-    static_cast<void>(failed(name));
+    static_cast<void>(file_failed(name));
   }
   ::close(file);
   return count;
@@ -155,7 +176,7 @@ bool FolderFiles::write(const char* name, const std::uint8_t* bytes, std::size_t
   close_one(written_);
   written_ = open_file(name, O_WRONLY | O_CREAT);
   if (written_ < 0 || !write_all(written_, bytes, count)) {
-    const bool result = failed(name);
+    const bool result = file_failed(name);
     close_one(written_);
     return result;
   }
@@ -170,7 +191,7 @@ bool FolderFiles::sync(const char* name) {
   const bool is_open = written_ >= 0 && std::strcmp(written_name_, name) == 0;
   const int file = is_open ? written_ : open_file(name, O_RDONLY);
   const bool done = file >= 0 && ::fsync(file) == 0;
-  const bool result = done || failed(name);
+  const bool result = done || file_failed(name);
   if (is_open) {
     close_one(written_);
   } else if (file >= 0) {

@@ -38,6 +38,7 @@ class FolderFiles : public StoreFiles {
  private:
   bool failed(const char* name);
   bool failed(const char* name, const char* why);
+  bool file_failed(const char* name);
   int open_file(const char* name, int flags);
   bool lock();
 

@@ -24,7 +24,7 @@ FoundRecord find_record(StoreFiles& files, RecordKey key, RecordBytes& record) {
   for (unsigned copy = 0; copy < 2; ++copy) {
     const long count = files.read(file_name(key, copy).data(), record.data(), record.size());
     RecordHead head;
-    found.copy[copy] = count < 0 ? CopyState::kDamaged
+    found.copy[copy] = count < 0 ? CopyState::kUnreadable
                                  : open_record(record, static_cast<std::size_t>(count), key, head);
     if (found.copy[copy] == CopyState::kValid) {
       found.sequence[copy] = head.sequence;
@@ -90,7 +90,8 @@ Store::Read Store::read(RecordKey key) {
   };
   Read read;
   for (unsigned copy = 0; copy < 2; ++copy) {
-    read.is_damaged[copy] = found.copy[copy] == CopyState::kDamaged;
+    read.is_damaged[copy] =
+        found.copy[copy] == CopyState::kDamaged || found.copy[copy] == CopyState::kUnreadable;
   }
   if (found.newest >= 0) {
     read.state =
@@ -100,7 +101,8 @@ Store::Read Store::read(RecordKey key) {
   } else if (either(CopyState::kOtherVersion)) {
     read.state = ReadState::kOtherVersion;
   } else {
-    read.state = either(CopyState::kDamaged) ? ReadState::kDamaged : ReadState::kNothing;
+    read.state =
+        read.is_damaged[0] || read.is_damaged[1] ? ReadState::kDamaged : ReadState::kNothing;
   }
   return read;
 }

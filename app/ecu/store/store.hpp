@@ -58,7 +58,7 @@ class Store {
   /// one.
   struct Read {
     ReadState state = ReadState::kNothing;
-    std::array<bool, 2> is_damaged{};  ///< Of the copies.
+    std::array<bool, 2> is_damaged{};  ///< Of the copies; or they cannot be read.
     const std::uint8_t* payload = nullptr;
     std::size_t length = 0;
   };

@@ -14,6 +14,12 @@ FoundRecord find(StoreFiles& files, RecordKey key, RecordBytes& record, StoredFa
       result.damaged.emplace_back(file_name(key, copy).data());
     } else if (state == CopyState::kOtherVersion) {
       result.other_format.emplace_back(file_name(key, copy).data());
+    } else if (state == CopyState::kUnreadable) {
+      // Once more: the error is that of the last file.
+      std::uint8_t byte = 0;
+      const FileName name = file_name(key, copy);
+      result.unreadable.emplace_back(files.read(name.data(), &byte, 1) < 0 ? files.error()
+                                                                           : name.data());
     }
   }
   return found;

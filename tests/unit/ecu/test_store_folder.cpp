@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/ecu/store/folder_files.hpp"
+#include "app/ecu/store/stored_faults.hpp"
 #include "tests/unit/ecu/store_records.hpp"
 
 using namespace graben::test::records;
@@ -112,6 +114,13 @@ TEST(what_is_no_file_is_neither_read_nor_written) {
   assert_int_equal(symlink("/dev/full", (folder + "/frame-001.a").c_str()), 0);
   FolderFiles files(folder);
   Store store(files, kHash);
+  assert_int_equal(mkdir((folder + "/faults.b").c_str(), 0755), 0);
+  const std::vector<std::string> why = read_stored_faults(files).unreadable;
+  assert_int_equal(why.size(), 3);
+  assert_string_equal(why[0].c_str(), (folder + "/faults.a: is a pipe, no file").c_str());
+  assert_string_equal(why[1].c_str(), (folder + "/faults.b: is a folder, no file").c_str());
+  assert_string_equal(why[2].c_str(), (folder + "/frame-001.a: is a link, no file").c_str());
+  assert_true(read_stored_faults(files).damaged.empty());
   assert_true(store.read(kFirst).state == ReadState::kDamaged);
   assert_false(write(store, kFirst, 1));
   assert_false(write(store, {RecordKind::kFreezeFrame, 1}, 1));
