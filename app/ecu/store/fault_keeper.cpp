@@ -222,6 +222,7 @@ void FaultKeeper::write_next_frame(TimeUs now_us, std::uint32_t unix_s) {
 void FaultKeeper::work(TimeUs now_us, std::uint32_t unix_s) {
   drain(now_us, unix_s);
   const int frames = waiting_.count();
+  frame_fails_ = frame_fails_ && frames > 0;
   if (granted_ > 0 && frames > 0 && now_us >= frame_retry_us_) {
     // Another disk is to have the history first.
     if (reach(now_us) == Place::kSame) {

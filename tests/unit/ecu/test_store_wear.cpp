@@ -96,6 +96,17 @@ TEST(a_frame_without_room_waits_and_stops_no_history) {
   assert_int_equal(stored(disk).history.lost, 0);
 }
 
+TEST(a_frame_that_failed_and_was_cleared_fails_no_more) {
+  MemoryDisk disk;
+  Process process(disk);
+  fill_up(disk, process);
+  FaultSet cleared;
+  cleared.add(kOne);
+  process.recorder().forget(cleared, process.now_us);
+  process.run(1.0);
+  assert_false(process.keeper().is_failing());
+}
+
 TEST(an_end_while_a_frame_fails_writes_the_history_and_says_what_is_lost) {
   MemoryDisk disk;
   Process process(disk);
