@@ -45,10 +45,14 @@ std::string time_text(std::uint32_t operation_s, std::uint32_t unix_s) {
 
 /// Throws where there is nothing to be shown.
 ecu::StoredFaults read_store(const std::string& folder) {
-  if (!std::filesystem::is_directory(folder)) {
-    throw std::runtime_error(
-        fmt::format("--store: {}: {}", folder,
-                    std::filesystem::exists(folder) ? "is no folder" : "there is no such folder"));
+  std::error_code error;
+  const auto what = std::filesystem::status(folder, error).type();
+  if (what != std::filesystem::file_type::directory) {
+    const bool is_absent = what == std::filesystem::file_type::not_found;
+    throw std::runtime_error(fmt::format("--store: {}: {}", folder,
+                                         is_absent ? "there is no such folder"
+                                         : error   ? error.message()
+                                                   : "is no folder"));
   }
   ecu::FolderFiles files(folder, ecu::FolderFiles::Missing::kIsAnError);
   if (!files.open()) {
@@ -58,6 +62,9 @@ ecu::StoredFaults read_store(const std::string& folder) {
   if (!found.damaged.empty()) {
     fmt::print(stderr, "graben faults: {}: damaged: {}\n", folder, fmt::join(found.damaged, ", "));
   }
+  for (const std::string& file : found.unreadable) {
+    fmt::print(stderr, "graben faults: {}\n", file);
+  }
   if (!found.other_format.empty()) {
     fmt::print(stderr, "graben faults: {}: of a format that this version does not know: {}\n",
                folder, fmt::join(found.other_format, ", "));
@@ -65,7 +72,7 @@ ecu::StoredFaults read_store(const std::string& folder) {
   if (!found.has_history) {
     throw std::runtime_error(fmt::format(
         "--store: {}: no stored faults in it{}", folder,
-        found.damaged.empty() && found.other_format.empty()
+        found.damaged.empty() && found.other_format.empty() && found.unreadable.empty()
             ? ": neither faults.a nor faults.b is there; wanted: a folder that graben-ecu had as "
               "--store"
             : " that can be read"));
@@ -94,8 +101,10 @@ void print_table(const std::string& folder, const ecu::StoredFaults& found) {
   fmt::print("{}: profile {:08x}, power cycle {}, {:.2f} h of operation\n", folder,
              found.profile_hash, history.power_cycles, history.operation_s / kSecondsPerHour);
   if (history.lost > 0) {
-    fmt::print("{} events or freeze frames were lost: they came faster than they could be taken\n",
-               history.lost);
+    fmt::print(
+        "{} events or freeze frames were lost: they came faster than they could be taken or "
+        "written\n",
+        history.lost);
   }
   const std::vector<Fault> faults = stored(found);
   if (faults.empty()) {
@@ -204,6 +213,8 @@ void print_json(const ecu::StoredFaults& found) {
   json["operation_s"] = found.history.operation_s;
   json["lost"] = found.history.lost;
   json["damaged"] = found.damaged;
+  json["unreadable"] = found.unreadable;
+  json["other_format"] = found.other_format;
   json["faults"] = ordered_json::array();
   for (const Fault fault : stored(found)) {
     const ecu::FaultEntry& entry = found.history.of(fault);

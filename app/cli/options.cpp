@@ -308,8 +308,11 @@ CLI::Validator whole_number_between(int least, int most) {
   return CLI::Validator(
       [least, most](const std::string& text) {
         int value = 0;
+        // Neither 0x1 nor 010, which is 8 to some.
+        const bool plain = text.find_first_not_of("0123456789") == std::string::npos &&
+                           (text.size() == 1 || text[0] != '0');
         const bool inside =
-            CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            plain && CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
         return inside ? std::string()
                       : fmt::format("{} is not a whole number from {} to {}", text, least, most);
       },

@@ -3,6 +3,7 @@
 the layout of app/ecu/store/record_format.hpp and zlib's checksum, not by the code that is tried."""
 
 import json
+import os
 import pathlib
 import struct
 import subprocess
@@ -75,6 +76,32 @@ def shown(graben, store):
     assert first["frame"]["samples"][0]["bucket_m"] is None and first["frame"]["samples"][1]["lambda"] == 0.5
 
 
+def not_files(graben, store):
+    """What stands in a file's place is told as what it is, and is not waited for."""
+    a, b = store / "faults.a", store / "faults.b"
+    a.unlink()
+    b.unlink()
+    os.mkfifo(a)
+    b.mkdir()
+    refused(graben, f"{a}: is a pipe, no file\n", "--store", store)
+    refused(graben, f"{b}: is a folder, no file\n", "--store", store)
+    refused(graben, "no stored faults in it that can be read", "--store", store)
+    a.unlink()
+    b.rmdir()
+    a.symlink_to(store / "frame-001.b")
+    b.write_bytes(record(FAULTS, 0, 9, history(*ENTRIES)))
+    done = call(graben, "--store", store)
+    assert done.stderr == f"graben faults: {a}: is a link, no file\n" and "fault" in done.stdout, done.stderr
+    said = json.loads(call(graben, "--store", store, "--json").stdout)
+    assert said["unreadable"] == [f"{a}: is a link, no file"] and said["damaged"] == [], said
+    a.unlink()
+    if os.geteuid() != 0:  # Whom no permission keeps out.
+        b.chmod(0)
+        refused(graben, f"{b}: Permission denied\n", "--store", store)
+        b.chmod(0o644)
+    b.unlink()
+
+
 def main():
     graben = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
@@ -100,15 +127,21 @@ def main():
         (store / "faults.a").write_bytes(damaged[:40] + bytes([damaged[40] ^ 1]) + damaged[41:])
         refused(graben, "damaged: faults.a, faults.b\n", "--store", store)
         refused(graben, "no stored faults in it that can be read", "--store", store)
+        not_files(graben, store)
         (store / "faults.a").write_bytes(record(FAULTS, 0, 8, history(), version=2))
         refused(graben, "of a format that this version does not know: faults.a", "--store", store)
         (store / "faults.b").write_bytes(record(FAULTS, 0, 9, history(lost=4)))
+        assert json.loads(call(graben, "--store", store, "--json").stdout)["other_format"] == ["faults.a"]
         done = call(graben, "--store", store)
         assert "no fault is stored" in done.stdout and "4 events or freeze frames were lost" in done.stdout
 
         refused(graben, "--store", status=2)
         refused(graben, "--jsn is no option; did you mean '--json'?", "--store", store, "--jsn", status=2)
         refused(graben, "0 is not a whole number from 1 to", "--store", store, "--frame", 0, status=2)
+        for number in ("0x1", "01", "1.0", "-1"):
+            refused(graben, f"{number} is not a whole number from 1 to", "--store", store, f"--frame={number}", status=2)
+        long = "/" + "a" * 300
+        refused(graben, f"graben faults: --store: {long}: File name too long", "--store", long)
         refused(graben, "--frame", "--store", store, "--frame", 1, "--json", status=2)
     print("graben faults: table, frame, JSON, damage and refusals")
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "app/ecu/store/byte_order.hpp"
-#include "firmware/core/fault_set.hpp"
 
 namespace graben::ecu {
 namespace {
@@ -33,6 +32,30 @@ void FaultHistory::add(Fault fault, std::uint32_t at_s, std::uint32_t at_unix_s)
   one.last_s = at_s;
   one.last_unix_s = at_unix_s;
   one.last_cycle = power_cycles;
+}
+
+void FaultHistory::follow(const FaultHistory& found, const FaultSet& cleared) {
+  operation_s = found.operation_s;
+  power_cycles = found.power_cycles;
+  boot = found.boot;
+  tokens = found.tokens;
+  lost = found.lost;
+  for (int number = 1; number < kFaultCount; ++number) {
+    const auto fault = static_cast<Fault>(number);
+    FaultEntry& own = of(fault);
+    const FaultEntry before = cleared.has(fault) ? FaultEntry{} : found.of(fault);
+    if (own.occurrences == 0) {
+      own = before;
+      continue;
+    }
+    own.last_cycle = found.power_cycles;
+    own.last_s += found.operation_s;
+    own.first_s = before.occurrences > 0 ? before.first_s : own.first_s + found.operation_s;
+    own.first_unix_s = before.occurrences > 0 ? before.first_unix_s : own.first_unix_s;
+    own.occurrences = before.occurrences > UINT32_MAX - own.occurrences
+                          ? UINT32_MAX
+                          : before.occurrences + own.occurrences;
+  }
 }
 
 std::size_t write_history(const FaultHistory& history, std::uint8_t* payload) {

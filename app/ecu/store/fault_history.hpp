@@ -8,6 +8,7 @@
 
 #include "app/ecu/store/record_format.hpp"
 #include "firmware/core/codes.hpp"
+#include "firmware/core/fault_set.hpp"
 
 namespace graben::ecu {
 
@@ -18,6 +19,12 @@ struct FaultEntry {
   std::uint32_t first_unix_s = 0;  ///< The same since 1970; 0: the clock was not known.
   std::uint32_t last_unix_s = 0;
   std::uint32_t last_cycle = 0;  ///< Number of the power cycle in which it was last there.
+
+  /// Whether a freeze frame of that second of operation can be of these occurrences. One of faults
+  /// that came a cycle apart has the first one's time.
+  [[nodiscard]] bool covers(std::uint32_t at_s) const {
+    return occurrences > 0 && std::uint64_t{at_s} + 1 >= first_s && at_s <= last_s;
+  }
 };
 
 struct FaultHistory {
@@ -36,6 +43,10 @@ struct FaultHistory {
   [[nodiscard]] int stored() const;
   /// `fault` came at that time of operation.
   void add(Fault fault, std::uint32_t at_s, std::uint32_t at_unix_s);
+  /// Goes on from `found`, of the same machine: what this one has is of later occurrences, its
+  /// times from 0; `cleared` are those that count from 0. Operation, power cycles and what was lost
+  /// become those of `found`.
+  void follow(const FaultHistory& found, const FaultSet& cleared);
   /// Power cycles that began since it was last there.
   [[nodiscard]] std::uint32_t cycles_since(Fault fault) const {
     return power_cycles - of(fault).last_cycle;

@@ -7,63 +7,11 @@
 namespace graben::ecu {
 namespace {
 
-constexpr RecordKey kHistoryKey{RecordKind::kFaults, 0};
 constexpr TimeUs kSettlesUs = kSecondUs;  ///< What belongs together comes within it.
 constexpr TimeUs kHistoryEveryUs = 5 * kSecondUs;
 constexpr TimeUs kHoursEveryUs = 600 * kSecondUs;
-constexpr TimeUs kFrameEveryUs = 600 * kSecondUs;
 constexpr TimeUs kRetryUs = 60 * kSecondUs;
 constexpr int kHistoryReserve = 8;
-
-RecordKey frame_key(Fault fault) {
-  return {RecordKind::kFreezeFrame, static_cast<std::uint16_t>(fault)};
-}
-
-const char* state_words(ReadState state) {
-  switch (state) {
-    case ReadState::kRead:
-      return "read";
-    case ReadState::kNothing:
-      return "new, nothing was there";
-    case ReadState::kOtherProfile:
-      return "new, what was there is of another profile";
-    case ReadState::kOtherVersion:
-      return "new, what was there is of another format";
-    case ReadState::kDamaged:
-      break;
-  }
-  return "new, what was there is damaged";
-}
-
-/// Bytes that are whole and say nothing.
-ReadState worst(ReadState state) {
-  return state == ReadState::kRead || state == ReadState::kOtherProfile ? ReadState::kDamaged
-                                                                        : state;
-}
-
-/// Files that are not as they should be.
-class ReadNote {
- public:
-  void see(RecordKey key, const Store::Read& read) {
-    for (unsigned copy = 0; copy < read.is_damaged.size(); ++copy) {
-      if (read.is_damaged[copy]) {
-        damaged_ += (damaged_.empty() ? "" : ", ") + std::string(file_name(key, copy).data());
-        damaged_ += read.payload != nullptr ? " (the other copy counts)" : "";
-      }
-    }
-    const bool is_foreign = read.state == ReadState::kOtherProfile;
-    foreign_ += is_foreign && key.kind == RecordKind::kFreezeFrame ? 1 : 0;
-  }
-  [[nodiscard]] std::string words() const {
-    return (foreign_ == 0 ? ""
-                          : "; freeze frames of another profile: " + std::to_string(foreign_)) +
-           (damaged_.empty() ? "" : "; damaged: " + damaged_);
-  }
-
- private:
-  std::string damaged_;
-  int foreign_ = 0;
-};
 
 std::uint32_t seconds(TimeUs us) { return static_cast<std::uint32_t>(us / kSecondUs); }
 
@@ -75,39 +23,73 @@ std::uint32_t wall_s(std::uint32_t unix_s, TimeUs ago_us) {
 }  // namespace
 
 std::string FaultKeeper::begin(TimeUs now_us, std::uint32_t boot) {
-  ReadNote note;
-  const Store::Read read = store_.read(kHistoryKey);
-  note.see(kHistoryKey, read);
-  FaultHistory found;
-  const bool whole = read.payload != nullptr && read_history(read.payload, read.length, found);
-  // Another machine's faults are none of this one's; what the disk has borne is the disk's.
-  budget_.begin(whole ? found.tokens : kMostTokens, now_us);
-  if (whole && read.state == ReadState::kRead) {
-    history_ = found;
-  }
-  int frames = 0;
-  for (int number = 1; number < kFaultCount; ++number) {
-    const RecordKey key = frame_key(static_cast<Fault>(number));
-    const Store::Read frame = store_.read(key);
-    note.see(key, frame);
-    frames += frame.state == ReadState::kRead ? 1 : 0;
-  }
+  boot_ = boot;
   begin_us_ = now_us;
-  begin_s_ = history_.operation_s;
-  lost_before_ = history_.lost;
-  if (boot == 0 || boot != history_.boot) {
-    ++history_.power_cycles;
+  FoundFaults found;
+  if (store_.look() != Place::kNone) {
+    find_faults(store_, found, frame_);
   }
-  history_.boot = boot;
+  // Another machine's faults are none of this one's; what the disk has borne is the disk's.
+  budget_.begin(found.is_whole ? found.history.tokens : kMostTokens, now_us);
+  go_on_from(found.is_own() ? found.history : FaultHistory{});
   written_us_ = now_us;
   changed(now_us);
-  std::array<char, 160> line{};
-  static_cast<void>(
-      std::snprintf(line.data(), line.size(),
-                    "%s; power cycle %u, %u h of operation, faults stored: %d, freeze frames: %d",
-                    state_words(whole ? read.state : worst(read.state)), history_.power_cycles,
-                    history_.operation_s / 3600U, history_.stored(), frames));
-  return line.data() + note.words();
+  return found_words(found, history_).data() + found.damaged_words();
+}
+
+void FaultKeeper::go_on_from(FaultHistory base) {
+  known_[place_].base = base;
+  if (boot_ == 0 || boot_ != base.boot) {
+    ++base.power_cycles;
+  }
+  base.boot = boot_;
+  begin_s_ = base.operation_s;
+  lost_before_ = base.lost;
+  history_ = own_;
+  history_.follow(base, cleared_);
+}
+
+const FaultKeeper::Known* FaultKeeper::written_here(std::uint32_t checksum) const {
+  const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& one) {
+    return one.checksum[0] == checksum || one.checksum[1] == checksum;
+  });
+  return found == known_.end() ? nullptr : &*found;
+}
+
+void FaultKeeper::adopt(TimeUs now_us) {
+  FoundFaults found;
+  find_faults(store_, found, frame_);
+  if (found.is_whole) {
+    budget_.limit(found.history.tokens);
+  }
+  // On an empty one goes on what there was.
+  FaultHistory base = known_[place_].base;
+  if (found.is_own()) {
+    // What was written here before has some of our own in it.
+    const Known* const before = written_here(found.checksum);
+    base = before != nullptr ? before->base : found.history;
+    static_cast<void>(rings_.found.put(occurrences_of(base)));
+  }
+  place_ = (place_ + 1) % known_.size();
+  known_[place_].checksum = {};
+  go_on_from(base);
+  granted_ = 0;
+  changed(now_us);
+  std::array<char, 320> line{};
+  static_cast<void>(std::snprintf(line.data(), line.size(),
+                                  "store: the disk is there now: %s; damaged files: %d",
+                                  found_words(found, history_).data(), found.damaged()));
+  say_(line.data());
+}
+
+Place FaultKeeper::reach(TimeUs now_us) {
+  const Place place = store_.look();
+  if (place == Place::kAnother) {
+    adopt(now_us);
+  } else if (place == Place::kNone) {
+    history_failed(now_us);
+  }
+  return place;
 }
 
 std::uint32_t FaultKeeper::operation_s(TimeUs now_us) const {
@@ -122,91 +104,103 @@ void FaultKeeper::changed(TimeUs now_us) {
 void FaultKeeper::drain(TimeUs now_us, std::uint32_t unix_s) {
   while (const FaultEvent* const event = rings_.events.front()) {
     if (event->fault == Fault::kNone) {
-      forget(event->cleared);
+      forget(*event);
     } else {
-      history_.add(event->fault, operation_s(event->now_us),
-                   wall_s(unix_s, now_us - event->now_us));
+      const std::uint32_t came_s = wall_s(unix_s, now_us - event->now_us);
+      history_.add(event->fault, operation_s(event->now_us), came_s);
+      own_.add(event->fault, operation_s(event->now_us) - begin_s_, came_s);
     }
     rings_.events.take();
     changed(now_us);
   }
-}
-
-void FaultKeeper::forget(const FaultSet& cleared) {
-  for (Fault fault = cleared.first(); fault != Fault::kNone; fault = cleared.after(fault)) {
-    history_.of(fault) = {};
-    framed_.remove(fault);
-  }
-}
-
-int FaultKeeper::frames_wanted(TimeUs now_us) {
   while (const FreezeFrame* const frame = rings_.frames.front()) {
-    int wanted = 0;
-    const FaultSet& faults = frame->faults;
-    for (Fault fault = faults.first(); fault != Fault::kNone; fault = faults.after(fault)) {
-      const bool is_recent = framed_.has(fault) &&
-                             now_us - framed_us_[static_cast<std::size_t>(fault)] < kFrameEveryUs;
-      wanted += is_recent || of_front_.has(fault) ? 0 : 1;
-    }
-    if (wanted > 0) {
-      return wanted;
+    if (!waiting_.take(*frame, now_us)) {
+      ++frames_lost_;
     }
     rings_.frames.take();
-    of_front_ = {};
   }
-  return 0;
+}
+
+void FaultKeeper::forget(const FaultEvent& event) {
+  const FaultSet& cleared = event.cleared;
+  for (Fault fault = cleared.first(); fault != Fault::kNone; fault = cleared.after(fault)) {
+    history_.of(fault) = {};
+    own_.of(fault) = {};
+    cleared_.add(fault);
+  }
+  waiting_.forget(cleared, event.now_us);
 }
 
 bool FaultKeeper::put(RecordKey key, std::size_t length) {
   const bool written = store_.write(key, payload_.data(), length);
-  is_failing_ = !written;
   if (written) {
     ++writes_;
-    return true;
   }
-  ++failures_;
-  if (!has_said_) {
-    has_said_ = true;
-    std::array<char, 320> line{};
-    static_cast<void>(std::snprintf(line.data(), line.size(),
-                                    "store: %s; control goes on, nothing is stored; tried again "
-                                    "each minute",
-                                    store_.error()));
-    say_(line.data());
-  }
-  return false;
+  return written;
 }
 
-void FaultKeeper::write_history_now(TimeUs now_us) {
+void FaultKeeper::say_failure(const char* what_follows) const {
+  std::array<char, 320> line{};
+  static_cast<void>(
+      std::snprintf(line.data(), line.size(), "store: %s; %s", store_.error(), what_follows));
+  say_(line.data());
+}
+
+void FaultKeeper::history_failed(TimeUs now_us) {
+  ++failures_;
+  history_fails_ = true;
+  granted_ = 0;
+  retry_us_ = now_us + kRetryUs;
+  if (!has_said_) {
+    has_said_ = true;
+    say_failure("control goes on, nothing is stored; tried again each minute");
+  }
+}
+
+void FaultKeeper::frame_failed(TimeUs now_us) {
+  ++failures_;
+  frame_fails_ = true;
+  frame_retry_us_ = now_us + kRetryUs;
+  if (!has_said_frame_) {
+    has_said_frame_ = true;
+    say_failure("a freeze frame waits, tried again each minute");
+  }
+}
+
+void FaultKeeper::write_history_now(TimeUs now_us, bool is_last) {
+  has_tried_ = true;
+  written_us_ = now_us;
+  if (reach(now_us) == Place::kNone) {
+    return;
+  }
   const int left = budget_.left(now_us);
-  granted_ = std::clamp(frames_wanted(now_us), 0, std::max(left - 1 - kHistoryReserve, 0));
+  if (left == 0) {
+    return;
+  }
+  const int wanted = now_us >= frame_retry_us_ || is_last ? waiting_.count() : 0;
+  granted_ = std::clamp(wanted, 0, std::max(left - 1 - kHistoryReserve, 0));
   // Paid whether it is written or not: a disk that fails is not to be tried without end.
   budget_.take(1 + granted_);
   history_.tokens = static_cast<std::uint16_t>(left - 1 - granted_);
   history_.operation_s = operation_s(now_us);
-  history_.lost = lost_before_ + dropped();
-  has_tried_ = true;
-  written_us_ = now_us;
-  if (put(kHistoryKey, write_history(history_, payload_.data()))) {
+  // Those that are not paid for at the end are never written.
+  const int unpaid = is_last ? waiting_.count() - granted_ : 0;
+  history_.lost = lost_before_ + dropped() + static_cast<std::uint32_t>(unpaid);
+  const std::size_t length = write_history(history_, payload_.data());
+  std::array<std::uint32_t, 2>& tried = known_[place_].checksum;
+  tried = {crc32(payload_.data(), length), tried[0]};
+  if (put(kHistoryKey, length)) {
     has_changed_ = false;
+    history_fails_ = false;
   } else {
-    granted_ = 0;
-    retry_us_ = now_us + kRetryUs;
+    history_failed(now_us);
   }
 }
 
-bool FaultKeeper::write_next_frame(TimeUs now_us, std::uint32_t unix_s) {
-  if (granted_ == 0 || frames_wanted(now_us) == 0) {
-    return false;
-  }
-  const FreezeFrame& from = *rings_.frames.front();
-  Fault fault = from.faults.first();
-  while (of_front_.has(fault) ||
-         (framed_.has(fault) &&
-          now_us - framed_us_[static_cast<std::size_t>(fault)] < kFrameEveryUs)) {
-    fault = from.faults.after(fault);
-  }
-  frame_.fault = fault;
+void FaultKeeper::write_next_frame(TimeUs now_us, std::uint32_t unix_s) {
+  const WaitingFrames::Next next = waiting_.next();
+  const FreezeFrame& from = *next.frame;
+  frame_.fault = next.fault;
   frame_.kind = kind_;
   frame_.operation_s = operation_s(from.came_us);
   frame_.unix_s = wall_s(unix_s, now_us - from.came_us);
@@ -216,39 +210,55 @@ bool FaultKeeper::write_next_frame(TimeUs now_us, std::uint32_t unix_s) {
     frame_.sample[i].now_us -= from.came_us;
   }
   --granted_;
-  of_front_.add(fault);
-  if (put(frame_key(fault), write_frame(frame_, payload_.data()))) {
-    framed_.add(fault);
-    framed_us_[static_cast<std::size_t>(fault)] = now_us;
+  if (put(frame_key(next.fault), write_frame(frame_, payload_.data()))) {
+    waiting_.written(next.fault, now_us);
+    frame_fails_ = false;
   } else {
-    retry_us_ = now_us + kRetryUs;
+    waiting_.put_off(next.fault);
+    frame_failed(now_us);
   }
-  return true;
 }
 
 void FaultKeeper::work(TimeUs now_us, std::uint32_t unix_s) {
   drain(now_us, unix_s);
-  if (now_us < retry_us_ || write_next_frame(now_us, unix_s)) {
-    return;
+  const int frames = waiting_.count();
+  frame_fails_ = frame_fails_ && frames > 0;
+  if (granted_ > 0 && frames > 0 && now_us >= frame_retry_us_) {
+    // Another disk is to have the history first.
+    if (reach(now_us) == Place::kSame) {
+      write_next_frame(now_us, unix_s);
+    }
+  } else if (now_us >= retry_us_) {
+    const int left = budget_.left(now_us);
+    const bool pays_frames = left > 1 + kHistoryReserve && frames > 0 && now_us >= frame_retry_us_;
+    if (now_us - written_us_ >= kHoursEveryUs || pays_frames) {
+      changed(now_us);
+    }
+    if (has_changed_ && now_us - changed_us_ >= kSettlesUs && left > 0 &&
+        (!has_tried_ || now_us - written_us_ >= kHistoryEveryUs)) {
+      write_history_now(now_us, false);
+    }
   }
-  const int left = budget_.left(now_us);
-  const bool pays_frames = left > 1 + kHistoryReserve && frames_wanted(now_us) > 0;
-  if (now_us - written_us_ >= kHoursEveryUs || pays_frames) {
-    changed(now_us);
-  }
-  if (has_changed_ && now_us - changed_us_ >= kSettlesUs && left > 0 &&
-      (!has_tried_ || now_us - written_us_ >= kHistoryEveryUs)) {
-    write_history_now(now_us);
-  }
+  is_failing_ = history_fails_ || frame_fails_;
 }
 
 void FaultKeeper::finish(TimeUs now_us, std::uint32_t unix_s) {
   drain(now_us, unix_s);
-  if (is_failing_ || budget_.left(now_us) == 0) {
+  if (budget_.left(now_us) == 0) {
     return;
   }
-  write_history_now(now_us);
-  while (write_next_frame(now_us, unix_s) && !is_failing_) {
+  write_history_now(now_us, true);
+  // Each that it has paid for once, however the one before went.
+  while (granted_ > 0 && waiting_.count() > 0) {
+    write_next_frame(now_us, unix_s);
+  }
+  is_failing_ = history_fails_ || frame_fails_;
+  if (waiting_.count() > 0) {
+    frames_lost_ += static_cast<std::uint32_t>(waiting_.count());
+    std::array<char, 80> line{};
+    static_cast<void>(std::snprintf(
+        line.data(), line.size(), "store: freeze frames lost with the end: %d", waiting_.count()));
+    say_(line.data());
   }
 }
 

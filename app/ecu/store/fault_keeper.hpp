@@ -7,6 +7,9 @@
 /// for the hours of operation; of a fault at most one freeze frame in 10 minutes. Each is one write
 /// of the budget (wear_budget.hpp), which keeps the last 8 for histories. What a history writes as
 /// left is without the frames that follow it, so that no end at any time brings a write back.
+///
+/// Where the disk comes later, or another one in its place, the history on it goes on: what has
+/// been counted since the process began is added to it.
 
 #include <array>
 #include <atomic>
@@ -15,8 +18,10 @@
 
 #include "app/ecu/store/fault_history.hpp"
 #include "app/ecu/store/fault_recorder.hpp"
+#include "app/ecu/store/found_faults.hpp"
 #include "app/ecu/store/store.hpp"
 #include "app/ecu/store/store_thread.hpp"
+#include "app/ecu/store/waiting_frames.hpp"
 #include "app/ecu/store/wear_budget.hpp"
 
 namespace graben::ecu {
@@ -46,17 +51,30 @@ class FaultKeeper : public StoreWork {
   [[nodiscard]] bool is_failing() const { return is_failing_; }
   /// Events and frames that came while the queue was full.
   [[nodiscard]] std::uint32_t dropped() const {
-    return rings_.events.dropped() + rings_.frames.dropped();
+    return rings_.events.dropped() + rings_.frames.dropped() + frames_lost_;
   }
 
  private:
-  void forget(const FaultSet& cleared);
+  /// Of a place that histories were written to.
+  struct Known {
+    FaultHistory base;                        ///< What was there before this process.
+    std::array<std::uint32_t, 2> checksum{};  ///< Of the last two that it has tried to write.
+  };
+
+  void go_on_from(FaultHistory base);
+  void adopt(TimeUs now_us);
+  /// Null if this process did not write that.
+  [[nodiscard]] const Known* written_here(std::uint32_t checksum) const;
+  [[nodiscard]] Place reach(TimeUs now_us);
+  void forget(const FaultEvent& event);
   void drain(TimeUs now_us, std::uint32_t unix_s);
   [[nodiscard]] std::uint32_t operation_s(TimeUs now_us) const;
-  [[nodiscard]] int frames_wanted(TimeUs now_us);
-  [[nodiscard]] bool write_next_frame(TimeUs now_us, std::uint32_t unix_s);
-  void write_history_now(TimeUs now_us);
+  void write_next_frame(TimeUs now_us, std::uint32_t unix_s);
+  void write_history_now(TimeUs now_us, bool is_last);
   [[nodiscard]] bool put(RecordKey key, std::size_t length);
+  void say_failure(const char* what_follows) const;
+  void history_failed(TimeUs now_us);
+  void frame_failed(TimeUs now_us);
   void changed(TimeUs now_us);
 
   Store& store_;
@@ -64,6 +82,11 @@ class FaultKeeper : public StoreWork {
   SampleKind kind_;
   Say say_;
   FaultHistory history_;
+  FaultHistory own_;  ///< Of it, what this process has counted, in seconds since it began.
+  FaultSet cleared_;  ///< By this process.
+  std::uint32_t boot_ = 0;
+  std::array<Known, 4> known_{};
+  std::size_t place_ = 0;  ///< Of those, the present one.
   WearBudget budget_;
   StoredFrame frame_;
   std::array<std::uint8_t, kMostPayloadBytes> payload_{};
@@ -75,12 +98,15 @@ class FaultKeeper : public StoreWork {
   TimeUs changed_us_ = 0;
   TimeUs written_us_ = 0;  ///< When a history was written last, or tried.
   bool has_tried_ = false;
-  int granted_ = 0;    ///< Frames that the last history has paid for.
-  FaultSet framed_;    ///< Faults with a frame of this run,
-  FaultSet of_front_;  ///< and those of the oldest waiting frame that are done.
-  std::array<TimeUs, kFaultCount> framed_us_{};
+  int granted_ = 0;  ///< Frames that the last history has paid for.
+  WaitingFrames waiting_;
   TimeUs retry_us_ = 0;
+  TimeUs frame_retry_us_ = 0;
+  bool history_fails_ = false;
+  bool frame_fails_ = false;
   bool has_said_ = false;
+  bool has_said_frame_ = false;
+  std::atomic<std::uint32_t> frames_lost_{0};
   std::atomic<std::uint32_t> writes_{0};
   std::atomic<std::uint32_t> failures_{0};
   std::atomic<bool> is_failing_{false};

@@ -7,12 +7,27 @@ namespace graben::ecu {
 namespace {
 constexpr TimeUs kPowerOnUs = 10 * kSecondUs;
 constexpr std::uint32_t kMostOccurrences = 126;
+
+std::uint8_t limited(std::uint32_t occurrences) {
+  return static_cast<std::uint8_t>(std::min(occurrences, kMostOccurrences));
+}
 }  // namespace
 
-void FaultRecorder::begin(const FaultHistory& history) {
-  for (std::size_t i = 0; i < stored_.size(); ++i) {
-    stored_[i] =
-        static_cast<std::uint8_t>(std::min(history.entry[i].occurrences, kMostOccurrences));
+Occurrences occurrences_of(const FaultHistory& history) {
+  Occurrences all{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = limited(history.entry[i].occurrences);
+  }
+  return all;
+}
+
+void FaultRecorder::begin(const FaultHistory& history) { go_on_from(occurrences_of(history)); }
+
+void FaultRecorder::go_on_from(const Occurrences& found) {
+  for (int number = 1; number < kFaultCount; ++number) {
+    const auto i = static_cast<std::size_t>(number);
+    const bool counts = !cleared_.has(static_cast<Fault>(number));
+    stored_[i] = limited(own_[i] + (counts ? std::uint32_t{found[i]} : 0U));
   }
 }
 
@@ -22,6 +37,8 @@ void FaultRecorder::forget(const FaultSet& cleared, TimeUs now_us) {
   }
   for (Fault fault = cleared.first(); fault != Fault::kNone; fault = cleared.after(fault)) {
     stored_[static_cast<std::size_t>(fault)] = 0;
+    own_[static_cast<std::size_t>(fault)] = 0;
+    cleared_.add(fault);
     // A frame that is not whole yet is forgotten with it.
     waiting_.remove(fault);
   }
@@ -45,8 +62,9 @@ void FaultRecorder::note(const FaultSet& faults, TimeUs now_us) {
     if (there_.has(fault)) {
       continue;
     }
-    std::uint8_t& stored = stored_[static_cast<std::size_t>(fault)];
-    stored = static_cast<std::uint8_t>(std::min(stored + 1U, kMostOccurrences));
+    const auto i = static_cast<std::size_t>(fault);
+    stored_[i] = limited(stored_[i] + 1U);
+    own_[i] = limited(own_[i] + 1U);
     if (rings_ == nullptr) {
       continue;
     }
@@ -94,6 +112,10 @@ void FaultRecorder::look(const CycleSample& sample, const FaultSet& faults) {
   if (!has_started_) {
     has_started_ = true;
     start_us_ = sample.now_us;
+  }
+  if (const Occurrences* const found = rings_ == nullptr ? nullptr : rings_->found.front()) {
+    go_on_from(*found);
+    rings_->found.take();
   }
   keep(sample);
   counts_ = counts_ || sample.mode != EcuMode::kSilent || sample.now_us - start_us_ >= kPowerOnUs;

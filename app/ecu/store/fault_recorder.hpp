@@ -22,17 +22,20 @@ struct FaultEvent {
   FaultSet cleared;
 };
 
-/// From the control thread to the store's.
+/// How often each fault is stored as, up to 126 as J1939 has it.
+using Occurrences = std::array<std::uint8_t, kFaultCount>;
+[[nodiscard]] Occurrences occurrences_of(const FaultHistory& history);
+
+/// From the control thread to the store's,
 struct FaultRings {
   SpscRing<FaultEvent, 128> events;
   SpscRing<FreezeFrame, 8> frames;
+  /// and back: what was on a disk that came later, in the place of what begin() was given.
+  SpscRing<Occurrences, 4> found;
 };
 
 class FaultRecorder {
  public:
-  /// How often each fault is stored as, up to 126 as J1939 has it.
-  using Occurrences = std::array<std::uint8_t, kFaultCount>;
-
   /// `rings` outlives it; null: there is no store, and what is counted ends with the process.
   explicit FaultRecorder(FaultRings* rings) : rings_(rings) {}
 
@@ -50,12 +53,15 @@ class FaultRecorder {
   void forget(const FaultSet& cleared, TimeUs now_us);
 
  private:
+  void go_on_from(const Occurrences& found);
   void keep(const CycleSample& sample);
   void note(const FaultSet& faults, TimeUs now_us);
   void hand_over_due(TimeUs now_us);
 
   FaultRings* rings_;
   Occurrences stored_{};
+  Occurrences own_{};  ///< Of them, those of this process.
+  FaultSet cleared_;   ///< By this process: what is found of them does not count.
   std::array<CycleSample, kFrameSamples> kept_{};  ///< A ring.
   std::size_t next_ = 0;                           ///< Place of the next one.
   std::size_t count_ = 0;

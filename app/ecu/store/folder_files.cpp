@@ -2,6 +2,7 @@
 #include "app/ecu/store/folder_files.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +15,9 @@ namespace {
 
 constexpr mode_t kFolderMode = 0755;
 constexpr mode_t kFileMode = 0644;
+/// Whoever may open it may keep us from storing.
+constexpr mode_t kLockMode = 0600;
+constexpr const char* kLock = "lock";
 
 /// Bytes until the end or an error, which is negative.
 long read_all(int file, std::uint8_t* out, std::size_t room) {
@@ -43,25 +47,54 @@ bool write_all(int file, const std::uint8_t* bytes, std::size_t count) {
   return true;
 }
 
+/// What stands in a file's place; null if it is one, or nothing.
+const char* other_kind(int folder, const char* name) {
+  struct stat what {};
+  if (::fstatat(folder, name, &what, AT_SYMLINK_NOFOLLOW) != 0 || S_ISREG(what.st_mode)) {
+    return nullptr;
+  }
+  if (S_ISLNK(what.st_mode)) {
+    return "is a link, no file";
+  }
+  if (S_ISDIR(what.st_mode)) {
+    return "is a folder, no file";
+  }
+  return S_ISFIFO(what.st_mode) ? "is a pipe, no file" : "is no regular file";
+}
+
+void close_one(int& file) {
+  if (file >= 0) {
+    ::close(file);
+    file = -1;
+  }
+}
+
 }  // namespace
 
 FolderFiles::~FolderFiles() {
-  close_written();
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
-  }
+  close_one(written_);
+  close_one(lock_);
+  close_one(descriptor_);
 }
 
-bool FolderFiles::failed(const char* name) {
-  error_.set("%s%s%s: %s", folder_.c_str(), name[0] == '\0' ? "" : "/", name, error_words(errno));
+bool FolderFiles::failed(const char* name) { return failed(name, error_words(errno)); }
+
+bool FolderFiles::failed(const char* name, const char* why) {
+  error_.set("%s%s%s: %s", folder_.c_str(), name[0] == '\0' ? "" : "/", name, why);
   return false;
 }
 
-void FolderFiles::close_written() {
-  if (written_ >= 0) {
-    ::close(written_);
-    written_ = -1;
+bool FolderFiles::lock() {
+  if (missing_ == Missing::kIsAnError || lock_ >= 0) {
+    return true;
   }
+  lock_ = ::openat(descriptor_, kLock, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK,
+                   kLockMode);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    close_one(lock_);
+    return failed(kLock, "another process stores there");
+  }
+  return true;
 }
 
 bool FolderFiles::open() {
@@ -73,7 +106,37 @@ bool FolderFiles::open() {
       ::mkdir(folder_.c_str(), kFolderMode) == 0) {
     descriptor_ = ::open(folder_.c_str(), kFlags);
   }
-  return descriptor_ >= 0 || failed("");
+  if (descriptor_ < 0) {
+    return failed("");
+  }
+  if (!lock()) {
+    close_one(descriptor_);
+    return false;
+  }
+  return true;
+}
+
+Place FolderFiles::look() {
+  if (descriptor_ < 0) {
+    return open() ? Place::kAnother : Place::kNone;
+  }
+  struct stat was {};
+  struct stat is {};
+  // As long as it is open, no other folder can have its number.
+  if (::fstat(descriptor_, &was) == 0 && ::stat(folder_.c_str(), &is) == 0 &&
+      was.st_dev == is.st_dev && was.st_ino == is.st_ino) {
+    return Place::kSame;
+  }
+  close_one(written_);
+  close_one(lock_);
+  close_one(descriptor_);
+  return open() ? Place::kAnother : Place::kNone;
+}
+
+bool FolderFiles::file_failed(const char* name) {
+  const int error = errno;
+  const char* const other = other_kind(descriptor_, name);
+  return failed(name, other != nullptr ? other : error_words(error));
 }
 
 int FolderFiles::open_file(const char* name, int flags) {
@@ -96,11 +159,11 @@ long FolderFiles::read(const char* name, std::uint8_t* out, std::size_t room) {
   const int file = open_file(name, O_RDONLY);
   if (file < 0) {
     const bool is_absent = errno == ENOENT;
-    return is_absent || failed(name) ? 0 : -1;
+    return is_absent || file_failed(name) ? 0 : -1;
   }
   const long count = read_all(file, out, room);
   if (count < 0) {
-    static_cast<void>(failed(name));
+    static_cast<void>(file_failed(name));
   }
   ::close(file);
   return count;
@@ -110,11 +173,11 @@ bool FolderFiles::write(const char* name, const std::uint8_t* bytes, std::size_t
   if (!open()) {
     return false;
   }
-  close_written();
+  close_one(written_);
   written_ = open_file(name, O_WRONLY | O_CREAT);
   if (written_ < 0 || !write_all(written_, bytes, count)) {
-    const bool result = failed(name);
-    close_written();
+    const bool result = file_failed(name);
+    close_one(written_);
     return result;
   }
   static_cast<void>(std::snprintf(written_name_, sizeof written_name_, "%s", name));
@@ -128,9 +191,9 @@ bool FolderFiles::sync(const char* name) {
   const bool is_open = written_ >= 0 && std::strcmp(written_name_, name) == 0;
   const int file = is_open ? written_ : open_file(name, O_RDONLY);
   const bool done = file >= 0 && ::fsync(file) == 0;
-  const bool result = done || failed(name);
+  const bool result = done || file_failed(name);
   if (is_open) {
-    close_written();
+    close_one(written_);
   } else if (file >= 0) {
     ::close(file);
   }

@@ -12,18 +12,22 @@ namespace graben::ecu {
 
 class FolderFiles : public StoreFiles {
  public:
-  /// Where a folder that is not there is to be made: only its last part, and only for writing.
+  /// Where a folder that is not there is to be made: only its last part, and only for writing. Who
+  /// writes holds the file "lock" in it, so that no other process does: open() fails while one has
+  /// it. Where that file cannot be made, it goes without.
   enum class Missing : std::uint8_t { kIsAnError, kIsMade };
 
   explicit FolderFiles(std::string folder, Missing missing = Missing::kIsMade)
       : folder_(std::move(folder)), missing_(missing) {}
   ~FolderFiles() override;
 
-  /// True if the folder is open; error() says why not. Each other call tries again, for a disk that
-  /// comes later.
+  /// True if the folder is open; error() says why not. Each other call tries again.
   [[nodiscard]] bool open();
   [[nodiscard]] const std::string& folder() const { return folder_; }
 
+  /// Opens another folder that is there by now: it may have been mounted over, or be gone with its
+  /// disk.
+  [[nodiscard]] Place look() override;
   [[nodiscard]] long read(const char* name, std::uint8_t* out, std::size_t room) override;
   /// Nothing but a regular file is written to: neither a link nor a pipe of that name.
   [[nodiscard]] bool write(const char* name, const std::uint8_t* bytes, std::size_t count) override;
@@ -33,12 +37,15 @@ class FolderFiles : public StoreFiles {
 
  private:
   bool failed(const char* name);
+  bool failed(const char* name, const char* why);
+  bool file_failed(const char* name);
   int open_file(const char* name, int flags);
-  void close_written();
+  bool lock();
 
   std::string folder_;
   Missing missing_;
   int descriptor_ = -1;  ///< Of the folder.
+  int lock_ = -1;        ///< Of the file that is locked in it.
   int written_ = -1;     ///< Of the file that was written last: it has the errors of that.
   char written_name_[32] = {};
   ErrorText error_;

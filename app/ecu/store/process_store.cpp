@@ -53,7 +53,7 @@ ProcessStore::ProcessStore(const std::string& folder, std::uint32_t profile_hash
   const std::string line = "store " + folder + ": " + found;
   if (!is_open) {
     say_error((std::string("store: ") + files_.error() +
-               "; control goes on, nothing is stored until it is there")
+               "; control goes on, nothing is stored until that has changed")
                   .c_str());
   } else if (found.find("damaged") != std::string::npos) {
     say_error(line.c_str());

@@ -54,6 +54,7 @@ enum class CopyState : std::uint8_t {
   kValid = 1,         ///< The head is filled in.
   kDamaged = 2,       ///< It is no record, not whole, or its checksum is wrong.
   kOtherVersion = 3,  ///< Of a format that this program does not know.
+  kUnreadable = 4,    ///< Something is there; the files' error() says why it is not read.
 };
 
 /// CRC-32 of IEEE 802.3, as zlib's; `before` is that of the bytes before.

@@ -24,7 +24,7 @@ FoundRecord find_record(StoreFiles& files, RecordKey key, RecordBytes& record) {
   for (unsigned copy = 0; copy < 2; ++copy) {
     const long count = files.read(file_name(key, copy).data(), record.data(), record.size());
     RecordHead head;
-    found.copy[copy] = count < 0 ? CopyState::kDamaged
+    found.copy[copy] = count < 0 ? CopyState::kUnreadable
                                  : open_record(record, static_cast<std::size_t>(count), key, head);
     if (found.copy[copy] == CopyState::kValid) {
       found.sequence[copy] = head.sequence;
@@ -47,6 +47,20 @@ FoundRecord find_record(StoreFiles& files, RecordKey key, RecordBytes& record) {
   return found;
 }
 
+Place Store::look() {
+  Place place = files_.look();
+  if (place == Place::kSame && !is_there_) {
+    place = Place::kAnother;
+  }
+  if (place != Place::kSame) {
+    slot_count_ = 0;
+  }
+  is_there_ = place != Place::kNone;
+  return place;
+}
+
+bool Store::is_reached() { return is_there_ || look() != Place::kNone; }
+
 Store::Slot* Store::slot_of(RecordKey key) {
   for (std::size_t i = 0; i < slot_count_; ++i) {
     if (slots_[i].key == key) {
@@ -57,6 +71,7 @@ Store::Slot* Store::slot_of(RecordKey key) {
     return nullptr;
   }
   Slot& slot = slots_[slot_count_++];
+  slot = {};
   slot.key = key;
   const FoundRecord found = find_record(files_, key, record_);
   slot.newest = found.newest;
@@ -65,6 +80,9 @@ Store::Slot* Store::slot_of(RecordKey key) {
 }
 
 Store::Read Store::read(RecordKey key) {
+  if (!is_reached()) {
+    return {};
+  }
   static_cast<void>(slot_of(key));
   const FoundRecord found = find_record(files_, key, record_);
   const auto either = [&](CopyState state) {
@@ -72,7 +90,8 @@ Store::Read Store::read(RecordKey key) {
   };
   Read read;
   for (unsigned copy = 0; copy < 2; ++copy) {
-    read.is_damaged[copy] = found.copy[copy] == CopyState::kDamaged;
+    read.is_damaged[copy] =
+        found.copy[copy] == CopyState::kDamaged || found.copy[copy] == CopyState::kUnreadable;
   }
   if (found.newest >= 0) {
     read.state =
@@ -82,7 +101,8 @@ Store::Read Store::read(RecordKey key) {
   } else if (either(CopyState::kOtherVersion)) {
     read.state = ReadState::kOtherVersion;
   } else {
-    read.state = either(CopyState::kDamaged) ? ReadState::kDamaged : ReadState::kNothing;
+    read.state =
+        read.is_damaged[0] || read.is_damaged[1] ? ReadState::kDamaged : ReadState::kNothing;
   }
   return read;
 }
@@ -98,6 +118,9 @@ bool Store::make_safe(Slot& slot) {
 }
 
 bool Store::write(RecordKey key, const std::uint8_t* payload, std::size_t length) {
+  if (!is_reached()) {
+    return false;
+  }
   Slot* const slot = slot_of(key);
   if (slot == nullptr || length > kMostPayloadBytes || !make_safe(*slot)) {
     return false;

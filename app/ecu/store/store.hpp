@@ -49,11 +49,16 @@ class Store {
   Store(StoreFiles& files, std::uint32_t profile_hash)
       : files_(files), profile_hash_(profile_hash) {}
 
+  /// Where its files are now. Of another place nothing is known here until it is read; while there
+  /// is none, nothing is read or written. To be called before each row of reads and writes: the
+  /// first read or write calls it where nobody has.
+  [[nodiscard]] Place look();
+
   /// The newest valid payload, which stays until the next call; `payload` is null unless there is
   /// one.
   struct Read {
     ReadState state = ReadState::kNothing;
-    std::array<bool, 2> is_damaged{};  ///< Of the copies.
+    std::array<bool, 2> is_damaged{};  ///< Of the copies; or they cannot be read.
     const std::uint8_t* payload = nullptr;
     std::size_t length = 0;
   };
@@ -80,6 +85,7 @@ class Store {
     std::array<bool, 2> is_listed{};  ///< The copy's file is in the folder on the disk.
   };
 
+  [[nodiscard]] bool is_reached();
   /// Null if there are too many.
   Slot* slot_of(RecordKey key);
   bool make_safe(Slot& slot);
@@ -88,6 +94,7 @@ class Store {
   std::uint32_t profile_hash_;
   std::array<Slot, kMostSlots> slots_{};
   std::size_t slot_count_ = 0;
+  bool is_there_ = false;  ///< The place, when it was looked for last.
   RecordBytes record_{};
 };
 

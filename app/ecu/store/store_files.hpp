@@ -8,6 +8,13 @@
 
 namespace graben::ecu {
 
+/// What has become of the place where files are.
+enum class Place : std::uint8_t {
+  kNone = 0,     ///< It cannot be reached: error() says why.
+  kSame = 1,     ///< It is that of the last time.
+  kAnother = 2,  ///< It is there for the first time, or another one, with what files it may have.
+};
+
 class StoreFiles {
  public:
   StoreFiles() = default;
@@ -15,6 +22,9 @@ class StoreFiles {
   StoreFiles(const StoreFiles&) = delete;
   StoreFiles& operator=(const StoreFiles&) = delete;
 
+  /// Where the files are now: a disk may come later, or go. To be asked before each row of reads
+  /// and writes, which are then all of that place.
+  [[nodiscard]] virtual Place look() = 0;
   /// The first bytes of a file, up to `room`. How many; 0: there is no such file; negative: it is
   /// there and cannot be read.
   [[nodiscard]] virtual long read(const char* name, std::uint8_t* out, std::size_t room) = 0;

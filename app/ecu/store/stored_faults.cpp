@@ -14,6 +14,12 @@ FoundRecord find(StoreFiles& files, RecordKey key, RecordBytes& record, StoredFa
       result.damaged.emplace_back(file_name(key, copy).data());
     } else if (state == CopyState::kOtherVersion) {
       result.other_format.emplace_back(file_name(key, copy).data());
+    } else if (state == CopyState::kUnreadable) {
+      // Once more: the error is that of the last file.
+      std::uint8_t byte = 0;
+      const FileName name = file_name(key, copy);
+      result.unreadable.emplace_back(files.read(name.data(), &byte, 1) < 0 ? files.error()
+                                                                           : name.data());
     }
   }
   return found;
@@ -47,8 +53,8 @@ StoredFaults read_stored_faults(StoreFiles& files) {
     }
     StoredFrame frame;
     if (read_frame(record.data() + kHeadBytes, found.head.length, frame)) {
-      // An older one is of an occurrence that has been cleared.
-      if (frame.operation_s >= result.history.of(static_cast<Fault>(number)).first_s) {
+      // Another one is of occurrences that have been cleared, or of another time of this profile.
+      if (result.history.of(static_cast<Fault>(number)).covers(frame.operation_s)) {
         result.frames.push_back(frame);
       }
     } else {

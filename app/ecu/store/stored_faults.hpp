@@ -13,11 +13,12 @@
 namespace graben::ecu {
 
 struct StoredFaults {
-  bool has_history = false;  ///< Without it the rest says nothing but `damaged` and `other_format`.
+  bool has_history = false;  ///< Without it the rest says nothing but which files are not read.
   std::uint32_t profile_hash = 0;
   FaultHistory history;
   std::vector<StoredFrame> frames;        ///< Of that profile and of faults that are stored.
   std::vector<std::string> damaged;       ///< Files, where the other copy counts too.
+  std::vector<std::string> unreadable;    ///< Files that are there, and why they are not read.
   std::vector<std::string> other_format;  ///< Files of a format that this program does not know.
 };
 

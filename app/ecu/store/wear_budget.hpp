@@ -38,6 +38,8 @@ class WearBudget {
     tokens_ = static_cast<int>(std::min<TimeUs>(tokens_ + periods, kMostTokens));
     return tokens_;
   }
+  /// No more than so many, which another disk's record had: what that has borne counts too.
+  void limit(int tokens) { tokens_ = std::min(tokens_, std::max(tokens, 0)); }
   /// Takes so many, of which there are as many.
   void take(int count) { tokens_ -= count; }
 

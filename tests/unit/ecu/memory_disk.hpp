@@ -22,8 +22,13 @@ class MemoryDisk : public ecu::StoreFiles {
   using Bytes = std::vector<std::uint8_t>;
   static constexpr std::size_t kSector = 512;
 
+  ecu::Place look() override {
+    const bool was_there = was_there_;
+    was_there_ = is_there;
+    return !is_there ? ecu::Place::kNone : was_there ? ecu::Place::kSame : ecu::Place::kAnother;
+  }
   long read(const char* name, std::uint8_t* out, std::size_t room) override {
-    const auto found = seen_.find(name);
+    const auto found = is_there ? seen_.find(name) : seen_.end();
     if (found == seen_.end()) {
       return 0;
     }
@@ -32,7 +37,7 @@ class MemoryDisk : public ecu::StoreFiles {
     return static_cast<long>(count);
   }
   bool write(const char* name, const std::uint8_t* bytes, std::size_t count) override {
-    if (is_off() || is_full) {
+    if (is_off() || is_full || !is_there || (takes_no_new && seen_.count(name) == 0)) {
       return false;
     }
     writes += 1;
@@ -99,6 +104,8 @@ class MemoryDisk : public ecu::StoreFiles {
   Bytes& file(const std::string& name) { return seen_[name]; }
   [[nodiscard]] std::size_t files() const { return seen_.size(); }
   bool is_full = false;
+  bool is_there = true;
+  bool takes_no_new = false;  ///< Files, for which there is no room.
   bool never_syncs = false;
   int writes = 0;
 
@@ -121,6 +128,7 @@ class MemoryDisk : public ecu::StoreFiles {
   std::map<std::string, Bytes> disk_;
   std::set<std::string> listed_;  ///< Names that are on the disk.
   std::vector<Pending> pending_;
+  bool was_there_ = false;
   int left_ = -1;  ///< Operations until the power fails; negative: it does not.
 };
 

@@ -1,77 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A store's records: their format, what is left of them when the power fails, and the folder and
-// the thread that a real one has.
-
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
+// A store's records: their format, what is left of them when the power fails, and the thread that
+// a real one has.
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <csignal>
-#include <cstring>
-#include <filesystem>
-#include <map>
 #include <mutex>
 #include <random>
-#include <string>
 #include <thread>
-#include <vector>
 
-#include "app/ecu/store/folder_files.hpp"
 #include "app/ecu/store/spsc_ring.hpp"
 #include "app/ecu/store/store.hpp"
 #include "app/ecu/store/store_thread.hpp"
-#include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/ecu/memory_disk.hpp"
+#include "tests/unit/ecu/store_records.hpp"
 
-namespace {
-
-using namespace graben::ecu;
-using graben::test::MemoryDisk;
-
-constexpr std::uint32_t kHash = 0x12345678;
-constexpr RecordKey kFirst{RecordKind::kFaults, 0};
-
-/// The `number`th payload of a key: nothing of it stands in another one.
-MemoryDisk::Bytes payload_of(RecordKey key, unsigned number) {
-  std::mt19937 random(number * 64U + key.index);
-  MemoryDisk::Bytes bytes(4 + random() % 1200);
-  for (std::uint8_t& byte : bytes) {
-    byte = static_cast<std::uint8_t>(random());
-  }
-  std::memcpy(bytes.data(), &number, sizeof number);
-  return bytes;
-}
-
-/// The number of the payload that was read; 0: none. Fails if it is not whole.
-unsigned number_of(const Store::Read& read, RecordKey key) {
-  if (read.payload == nullptr) {
-    return 0;
-  }
-  unsigned number = 0;
-  std::memcpy(&number, read.payload, sizeof number);
-  const MemoryDisk::Bytes wanted = payload_of(key, number);
-  assert_int_equal(read.length, wanted.size());
-  assert_memory_equal(read.payload, wanted.data(), wanted.size());
-  return number;
-}
-
-bool write(Store& store, RecordKey key, unsigned number) {
-  const MemoryDisk::Bytes payload = payload_of(key, number);
-  return store.write(key, payload.data(), payload.size());
-}
-
-unsigned read_number(Store& store, RecordKey key) { return number_of(store.read(key), key); }
-
-std::string new_folder() {
-  std::string name = "/tmp/graben-store-XXXXXX";
-  assert_non_null(mkdtemp(name.data()));
-  return name;
-}
-
-}  // namespace
+using namespace graben::test::records;
 
 TEST(a_checksum_is_that_of_the_standard) {
   const char* const text = "123456789";
@@ -213,70 +157,6 @@ TEST(no_power_cut_loses_what_was_acknowledged) {
   assert_int_equal(cuts, 3 * kReplays);
   assert_true(acknowledged_in_all > 5 * kReplays);
   assert_true(newer > kReplays / 20);
-}
-
-TEST(a_folder_is_made_and_its_records_are_read_again) {
-  const std::string folder = new_folder();
-  {
-    FolderFiles files(folder + "/store");
-    Store store(files, kHash);
-    assert_true(write(store, kFirst, 1) && write(store, kFirst, 2));
-  }
-  FolderFiles files(folder + "/store", FolderFiles::Missing::kIsAnError);
-  Store store(files, kHash);
-  assert_int_equal(read_number(store, kFirst), 2);
-  assert_true(write(store, kFirst, 3));
-  assert_int_equal(read_number(store, kFirst), 3);
-  std::filesystem::remove_all(folder);
-}
-
-TEST(a_folder_that_cannot_be_is_said_and_tried_again) {
-  FolderFiles nowhere("/dev/null/store");
-  Store store(nowhere, kHash);
-  assert_true(store.read(kFirst).payload == nullptr);
-  assert_false(write(store, kFirst, 1));
-  assert_string_equal(store.error(), "/dev/null/store: Not a directory");
-  const std::string folder = new_folder();
-  FolderFiles later(folder + "/disk/store");
-  Store waiting(later, kHash);
-  assert_false(write(waiting, kFirst, 1));
-  assert_int_equal(mkdir((folder + "/disk").c_str(), 0755), 0);
-  assert_true(write(waiting, kFirst, 2));
-  std::filesystem::remove_all(folder);
-}
-
-TEST(what_is_no_file_is_neither_read_nor_written) {
-  const std::string folder = new_folder();
-  assert_int_equal(mkfifo((folder + "/faults.a").c_str(), 0644), 0);
-  assert_int_equal(symlink("/dev/full", (folder + "/frame-001.a").c_str()), 0);
-  FolderFiles files(folder);
-  Store store(files, kHash);
-  assert_true(store.read(kFirst).state == ReadState::kDamaged);
-  assert_false(write(store, kFirst, 1));
-  assert_false(write(store, {RecordKind::kFreezeFrame, 1}, 1));
-  std::filesystem::remove_all(folder);
-}
-
-TEST(a_disk_that_is_full_keeps_what_it_has) {
-  const std::string folder = new_folder();
-  FolderFiles files(folder);
-  Store store(files, kHash);
-  assert_true(write(store, kFirst, 1));
-  rlimit before{};
-  assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
-  const rlimit little{40, before.rlim_max};
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  assert_int_equal(setrlimit(RLIMIT_FSIZE, &little), 0);
-  const bool written = write(store, kFirst, 2);
-  const std::string why = store.error();
-  assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
-  std::signal(SIGXFSZ, handler);
-  assert_false(written);
-  assert_string_equal(why.c_str(), (folder + "/faults.b: File too large").c_str());
-  assert_int_equal(read_number(store, kFirst), 1);
-  assert_true(write(store, kFirst, 3));
-  assert_int_equal(read_number(store, kFirst), 3);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(a_full_queue_drops_and_counts) {

@@ -49,6 +49,75 @@ TEST(a_full_disk_is_said_once_and_tried_again) {
   assert_int_equal(stored(disk).history.of(kOne).occurrences, 1);
 }
 
+TEST(a_fault_that_comes_and_goes_takes_no_frame_of_another) {
+  MemoryDisk disk;
+  Process process(disk);
+  make_ready(process);
+  repeat(1000, [&] { process.pulse(kOne, 0.1); });
+  process.faults.add(kOther);
+  // The budget is empty, and its last 8 are not for frames.
+  process.run(1200.0);
+  const StoredFaults found = stored(disk);
+  assert_int_equal(found.history.of(kOne).occurrences, 1000);
+  assert_int_equal(found.history.lost, 0);
+  assert_int_equal(found.frames.size(), 2);
+}
+
+namespace {
+
+/// Both copies of its history are there; a new file has no room any more.
+void fill_up(MemoryDisk& disk, Process& process) {
+  said().clear();
+  make_ready(process);
+  process.pulse(kOther, 5.0);
+  disk.takes_no_new = true;
+  process.pulse(kOne, 5.0);
+  assert_int_equal(stored(disk).history.of(kOne).occurrences, 1);
+  assert_int_equal(stored(disk).frames.size(), 1);
+}
+
+}  // namespace
+
+TEST(a_frame_without_room_waits_and_stops_no_history) {
+  MemoryDisk disk;
+  Process process(disk);
+  fill_up(disk, process);
+  assert_true(process.keeper().is_failing());
+  assert_string_equal(said().c_str(),
+                      "store: memory: No space left on device; a freeze frame waits, tried again "
+                      "each minute");
+  process.pulse(kOther, 5.0);
+  assert_int_equal(stored(disk).history.of(kOther).occurrences, 2);
+  assert_true(process.keeper().is_failing());
+  disk.takes_no_new = false;
+  process.run(70.0);
+  assert_false(process.keeper().is_failing());
+  assert_int_equal(stored(disk).frames.size(), 2);
+  assert_int_equal(stored(disk).history.lost, 0);
+}
+
+TEST(a_frame_that_failed_and_was_cleared_fails_no_more) {
+  MemoryDisk disk;
+  Process process(disk);
+  fill_up(disk, process);
+  FaultSet cleared;
+  cleared.add(kOne);
+  process.recorder().forget(cleared, process.now_us);
+  process.run(1.0);
+  assert_false(process.keeper().is_failing());
+}
+
+TEST(an_end_while_a_frame_fails_writes_the_history_and_says_what_is_lost) {
+  MemoryDisk disk;
+  Process process(disk);
+  fill_up(disk, process);
+  process.pulse(kOther, 0.3);
+  process.end();
+  assert_int_equal(stored(disk).history.of(kOther).occurrences, 2);
+  assert_true(holds(said(), "store: freeze frames lost with the end: 1"));
+  assert_int_equal(process.keeper().dropped(), 1);
+}
+
 TEST(a_thread_that_does_not_come_loses_what_is_counted) {
   MemoryDisk disk;
   Process process(disk);

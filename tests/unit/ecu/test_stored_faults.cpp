@@ -133,6 +133,100 @@ TEST(what_is_cleared_is_forgotten_on_the_disk_too_with_its_frame) {
   assert_int_equal(again.stored()[static_cast<std::size_t>(kOther)], 0);
 }
 
+TEST(a_frame_of_what_was_cleared_is_in_the_way_of_none) {
+  MemoryDisk disk;
+  Process process(disk);
+  make_ready(process);
+  process.run(10.0);
+  process.faults.add(kOne);
+  process.run(0.3);
+  process.faults.remove(kOne);
+  process.run(0.1);
+  FaultSet cleared;
+  cleared.add(kOne);
+  process.recorder().forget(cleared, process.now_us);
+  process.run(20.0);
+  assert_int_equal(stored(disk).history.stored(), 0);
+  process.pulse(kOne, 5.0);
+  const StoredFaults found = stored(disk);
+  assert_int_equal(found.frames.size(), 1);
+  assert_int_equal(found.frames[0].operation_s, found.history.of(kOne).first_s);
+}
+
+TEST(a_frame_of_another_time_is_not_that_of_a_fault) {
+  MemoryDisk disk;
+  {
+    Process process(disk, 1);
+    make_ready(process);
+    process.run(100.0);
+    process.pulse(kOne, 5.0);
+    process.end();
+  }
+  {
+    Process other(disk, 2, kProfile + 1);
+    make_ready(other);
+    other.end();
+  }
+  Process process(disk, 3);
+  assert_true(holds(process.begin_text, "faults stored: 0, freeze frames: 0"));
+  make_ready(process);
+  process.faults.add(kOne);
+  while (stored(disk).history.stored() == 0) {
+    process.run(0.1);
+  }
+  assert_int_equal(stored(disk).frames.size(), 0);
+  process.run(1.0);
+  assert_int_equal(stored(disk).frames.size(), 1);
+}
+
+TEST(a_history_whose_disk_comes_late_goes_on) {
+  MemoryDisk disk;
+  {
+    Process process(disk, 1);
+    make_ready(process);  // until 2 s
+    process.pulse(kOne, 3.0);
+    process.pulse(kOther, 3.0);
+    process.end();  // at 14 s
+  }
+  disk.is_there = false;
+  Process process(disk, 2);
+  make_ready(process);
+  process.pulse(kOne, 3.0);  // from 2 s on
+  FaultSet cleared;
+  cleared.add(kOther);
+  process.recorder().forget(cleared, process.now_us);
+  process.run(1.0);
+  assert_true(process.keeper().is_failing());
+  said().clear();
+  disk.is_there = true;
+  process.run(61.0);
+  assert_false(process.keeper().is_failing());
+  assert_true(holds(said(),
+                    "store: the disk is there now: read; power cycle 2, 0 h of operation, "
+                    "faults stored: 1, freeze frames: 1; damaged files: 0"));
+  StoredFaults found = stored(disk);
+  assert_true(found.history.operation_s >= 14 + 61 && found.history.operation_s <= 14 + 70);
+  assert_int_equal(found.history.power_cycles, 2);
+  assert_int_equal(found.history.stored(), 1);
+  const FaultEntry& entry = found.history.of(kOne);
+  assert_int_equal(entry.occurrences, 2);
+  assert_true(entry.first_s == 2 && entry.last_s == 14 + 2);
+  assert_true(entry.first_unix_s == kNoon_s + 2 && entry.last_unix_s == kNoon_s + 2);
+  assert_int_equal(found.history.cycles_since(kOne), 0);
+  assert_int_equal(found.frames.size(), 1);
+  assert_int_equal(found.frames[0].operation_s, 14 + 2);
+  assert_int_equal(process.recorder().stored()[static_cast<std::size_t>(kOne)], 2);
+  assert_int_equal(process.recorder().stored()[static_cast<std::size_t>(kOther)], 0);
+  // It goes and comes again: none is counted twice.
+  disk.is_there = false;
+  process.pulse(kOne, 10.0);
+  disk.is_there = true;
+  process.run(70.0);
+  assert_int_equal(stored(disk).history.of(kOne).occurrences, 3);
+  assert_int_equal(process.recorder().stored()[static_cast<std::size_t>(kOne)], 3);
+  assert_int_equal(stored(disk).history.power_cycles, 2);
+}
+
 TEST(at_power_on_a_node_may_be_missing_for_a_while) {
   MemoryDisk disk;
   Process process(disk);
