@@ -19,8 +19,8 @@ DONE, REFUSED = 0, 1
 TOOL = 0xF9
 # What is missing without a machine: strokes, pressures, swash, engine, operator, identity, valve.
 MISSING = {1, 2, 3, 4, 5, 11, 20}
-# As J1939-21 has the first.
-GAPS_S, PERIOD_S = (0.050, 0.200), 1.05
+# As J1939-21 has the first. A packet to a tool alone goes between a broadcast's and moves its end by 60 ms.
+GAPS_S, PERIOD_S = (0.050, 0.200), 1.05 + 2 * 0.06
 
 
 def broadcasts(log: list[bus_log.Frame]) -> tuple[list[tuple[float, int, bytes]], list[str]]:

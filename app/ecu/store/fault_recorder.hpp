@@ -29,7 +29,7 @@ using Occurrences = std::array<std::uint8_t, kFaultCount>;
 /// From the control thread to the store's,
 struct FaultRings {
   SpscRing<FaultEvent, 128> events;
-  SpscRing<FreezeFrame, 8> frames;
+  SpscRing<FreezeFrame, 2> frames;
   /// and back: what was on a disk that came later, in the place of what begin() was given.
   SpscRing<Occurrences, 4> found;
 };

@@ -11,7 +11,7 @@
 namespace graben::ecu {
 namespace {
 
-constexpr std::size_t kStackBytes = 64 * 1024;
+constexpr std::size_t kStackBytes = 32 * 1024;
 constexpr long kNapNs = 100'000'000;
 constexpr long kNsPerUs = 1000;
 /// 1 January 2026.

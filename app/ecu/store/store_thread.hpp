@@ -30,7 +30,7 @@ class StoreWork {
 /// on a computer that has neither battery nor network.
 [[nodiscard]] std::uint32_t wall_clock_s();
 
-/// Of normal priority, whatever that of its maker. Its stack is 64 KiB, so that locked memory does
+/// Of normal priority, whatever that of its maker. Its stack is 32 KiB, so that locked memory does
 /// not grow by the megabytes that a thread has otherwise. Signals that ask for the end are left to
 /// the thread that cycles.
 class StoreThread {

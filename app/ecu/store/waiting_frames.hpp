@@ -35,7 +35,7 @@ class WaitingFrames {
 
  private:
   /// As many as come at once before the first can be written, on a machine that falls apart. [-]
-  static constexpr std::size_t kMostFrames = 8;
+  static constexpr std::size_t kMostFrames = 4;
 
   void remove(Fault fault);
 
