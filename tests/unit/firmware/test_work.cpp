@@ -77,6 +77,31 @@ TEST(whoever_runs_out_of_steps_says_so) {
   assert_true(ended > 1000);
 }
 
+/// A second solve of a cycle has what the first has left, and kLeastSteps whatever that took.
+TEST(a_second_solve_has_what_is_left) {
+  constexpr int kAll = kSearchSteps + kHalvingSteps;
+  int less = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    const test::RandomCase problem = test::random_case(seed);
+    const McvSolution alone = solve_mcv(problem.machine, problem.input, McvPolicy::kConnected);
+    for (const int taken : {kAll / 2, kAll, 2 * kAll}) {
+      LambdaRange range;
+      range.taken = taken;
+      const McvSolution second =
+          solve_mcv(problem.machine, problem.input, McvPolicy::kConnected, range);
+      assert_in_range(second.steps, 0, std::max(kAll - taken, kLeastSteps));
+      less += second.steps < alone.steps ? 1 : 0;
+    }
+  }
+  assert_true(less > 0);
+  LambdaRange wrong;
+  wrong.taken = -1;
+  const test::RandomCase problem = test::random_case(0);
+  assert_int_equal(
+      solve_mcv(problem.machine, problem.input, McvPolicy::kGlobal, wrong).defect.defect,
+      McvDefect::kLambdaRange);
+}
+
 /// A controller's solve never comes to it: not on wild circuits of an excavator's size.
 TEST(there_are_enough_steps) {
   int most = 0;
