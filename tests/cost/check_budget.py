@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """That budget.py is red where it has to be: a tenth above the budget with the names of what grew, too few
 reference compiles, nothing counted, a dear test without its proof; and green on a machine that is ten times
-slower in all."""
+slower in all, or so unsteady that a tenth says nothing."""
 
 import pathlib
 import subprocess
@@ -15,9 +15,10 @@ ROWS = '[budget_units]\nfirst_sight = 20\ntest = 100\n\n[stages]\n"release tests
 
 
 def judged(folder: pathlib.Path, *options: str, slower: float = 1.0, release_s: float = 180.0, dig_s: float = 10.0,
-           references: int = 3, more: str = "", tests: bool = True) -> tuple[int, str]:
+           references: int = 10, unsteady: float = 0.0, more: str = "", tests: bool = True) -> tuple[int, str]:
     (folder / "budget.toml").write_text(ROWS)
-    (folder / "reference.txt").write_text(f"{1.8 * slower} {0.2 * slower}\n" * references)
+    (folder / "reference.txt").write_text("".join(
+        f"{(1.8 + (unsteady if k % 2 else -unsteady)) * slower / 6.0} {0.2 * slower / 6.0}\n" for k in range(references)))
     (folder / "stages.txt").write_text(f"first sight {40 * slower}\nrelease tests {(release_s - 40) * slower}\n")
     (folder / "costs.txt").write_text(f"closed_loop_dig {dig_s * slower} 0.0 9\n{more}" if tests else "")
     (folder / ".ninja_log").write_text(LOG)
@@ -34,11 +35,13 @@ with tempfile.TemporaryDirectory() as name:
             ("less than a tenth above", 0, "", {"release_s": 218.0}),
             ("a tenth above", 1, "cost: test took 111 units, a tenth above its budget of 100", {"release_s": 222.0}),
             ("what grew", 1, "cost: closed_loop_dig grew by 35 units, from 5", {"release_s": 300.0, "dig_s": 80.0}),
-            ("two references", 1, "2 reference compiles; three are wanted", {"references": 2}),
+            ("nine references", 1, "9 reference compiles; 10 are wanted", {"references": 9}),
+            ("unsteady", 0, "cost: a unit is 2.00 processor seconds, to 33 %", {"release_s": 222.0, "unsteady": 1.0}),
+            ("far above though unsteady", 1, "cost: test took 150 units", {"release_s": 300.0, "unsteady": 1.0}),
             ("nothing counted", 1, "no stages or no tests were counted: the gate is dead", {"tests": False}),
             ("no proof", 1, "unit_new costs 5.0 units, and tests/cost/proofs.toml does not say", {"more": "unit_new 9 1 9\n"})):
         code, said = judged(here, **call)
         assert code == status and needle in said, f"{what}: {code}\n{said}"
     code, said = judged(here, "--whole", "no whole run is known", release_s=300.0)
     assert code == 0 and "NOT judged: no whole run is known" in said, said
-print("budget.py: 9 cases as wanted")
+print("budget.py: 11 cases as wanted")
