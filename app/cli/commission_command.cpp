@@ -86,11 +86,15 @@ void commission_in_memory(const CommissionCommand& options) {
     result = runs::run_commission(machine, run, nullptr, bar.progress_until_stopped());
   }
   const auto steps = planned_steps(run.sequence);
+  fmt::print("{:<49} {:<11} {:>6} {:>6} {:>9}\n", "tried", "ended as", "took", "duty", "speed");
   for (std::size_t at = 0; at < result.steps.size(); ++at) {
     const commission::StepResult& step = result.steps[at];
     fmt::print("{:<49} {:<11} {:>4.1f} s {:>4.0f} % {:>4.0f} mm/s\n", step_text(steps[at]),
                end_text(step.end), step.took_s, 100.0 * step.duty, 1e3 * step.speed_mps);
   }
+  fmt::print(
+      "(took: with the way to its start; duty, speed: the largest that was tried, that came of "
+      "it)\n");
   fmt::print("machine time {:.0f} s\nlog {}\n", result.machine_s, options.log);
   if (result.end != runs::CommissionEnd::kDone) {
     throw std::runtime_error(

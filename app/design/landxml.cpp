@@ -118,7 +118,8 @@ class LandXmlSurface {
   }
 
   void read_face(const pugi::xml_node& node) {
-    const auto words = words_of(node.child_value(), 3);
+    std::string room;
+    const auto words = words_of(node, 3, room);
     if (words.size() != 3) {
       xml_.note(node, fmt::format("{} points; allowed: 3, by their ids",
                                   words.size() > 3 ? "more than 3" : std::to_string(words.size())));

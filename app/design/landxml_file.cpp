@@ -91,9 +91,17 @@ struct Choice {
 
 }  // namespace
 
-std::vector<std::string_view> words_of(const char* text, std::size_t most) {
+std::vector<std::string_view> words_of(const pugi::xml_node& node, std::size_t most,
+                                       std::string& room) {
   std::vector<std::string_view> words;
-  std::string_view rest(text);
+  std::string_view rest(node.child_value());
+  if (node.first_child() != node.last_child()) {
+    room.clear();
+    for (const pugi::xml_node& part : node.children()) {
+      room += part.value();
+    }
+    rest = room;
+  }
   while (words.size() <= most) {
     rest.remove_prefix(std::min(rest.find_first_not_of(kBlank), rest.size()));
     if (rest.empty()) {
@@ -235,7 +243,8 @@ pugi::xml_node LandXmlFile::chosen(const char* group, const char* element, const
 
 std::optional<Eigen::Vector3d> LandXmlFile::north_east_up_m(const pugi::xml_node& node,
                                                             std::size_t count) {
-  const auto words = words_of(node.child_value(), 3);
+  std::string room;
+  const auto words = words_of(node, 3, room);
   // A place in plan may have a height.
   if (words.size() < count || words.size() > 3) {
     note(node, fmt::format("{} numbers; allowed: {}, north, east{}",

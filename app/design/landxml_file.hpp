@@ -13,8 +13,10 @@
 
 namespace graben::design {
 
-/// The words of an element, between blanks; one more than `most` ends it.
-[[nodiscard]] std::vector<std::string_view> words_of(const char* text, std::size_t most);
+/// The words of an element, between blanks; one more than `most` ends it. A comment or another
+/// element may stand between them: then its text is put together in `room`, which the words need.
+[[nodiscard]] std::vector<std::string_view> words_of(const pugi::xml_node& node, std::size_t most,
+                                                     std::string& room);
 
 /// As XML Schema writes numbers: a plus may stand before one.
 template <class Number>

@@ -222,8 +222,11 @@ std::string syntax_words(const std::string& text, const toml::parse_error& error
 void require_kind(const ProfileDocument& document, TomlReader& reader, MachineKind kind) {
   const MachineKind found = read_kind(document, reader);
   if (found != kind) {
-    reader.fail("kind", fmt::format("a machine of kind {}; here it must be {}", kind_name(found),
-                                    kind_name(kind)));
+    reader.fail(
+        "kind",
+        fmt::format("a machine of kind {}; here it must be {}{}", kind_name(found), kind_name(kind),
+                    found == MachineKind::kDozer ? " (a dozer works by graben grade)"
+                                                 : " (an excavator digs by graben dig)"));
   }
   throw_errors(document, reader);
 }

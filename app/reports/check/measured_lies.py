@@ -17,17 +17,32 @@ def rows(text):
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
 
 
+def parts(cell):
+    """'47 of 60, 3.8 / 55.4 s; 0.35 / 5.73': how many were stopped, after what time, how far off; no time where none was."""
+    seen, off = cell.split("; ")
+    stopped, _, after = seen.partition(", ")
+    return stopped, after.removesuffix(" s") or "-", off
+
+
 def header(found):
-    told = "".join("    {" + ", ".join(f'"{cell}"' for cell in row) + "},\n" for row in found)
+    told = ""
+    for name, wanted, *speeds in found:
+        cells = ", ".join("{" + ", ".join(f'"{part}"' for part in parts(cell)) + "}" for cell in speeds)
+        told += f'    {{"{name}", "{wanted}", {{{{{cells}}}}}}},\n'
     return f"""// Made by app/reports/check/measured_lies.py of firmware/safety/README.md.
 #pragma once
+#include <array>
 namespace graben::reports {{
+/// Of the draws at one speed: how many were stopped, s until then and m off by then, each two figures.
+struct MeasuredAtSpeed {{
+  const char* stopped;
+  const char* after_s;
+  const char* off_m;
+}};
 struct MeasuredLie {{
   const char* name;
-  const char* wanted;
-  const char* at_1;
-  const char* at_03;
-  const char* at_01;
+  const char* wanted_m;
+  std::array<MeasuredAtSpeed, 3> at;  ///< Speed 1, 0.3, 0.1.
 }};
 inline constexpr MeasuredLie kMeasuredLies[] = {{
 {told}}};

@@ -43,6 +43,20 @@ TEST(points_and_faces_arrive) {
   assert_near(got.point_m[got.face[1][1]].z(), 4.0, 0.0);
 }
 
+/// What an exporter notes between two numbers ends nothing.
+TEST(comments_may_stand_between_words) {
+  const design::Surface got = read(file_of(
+      kMetres, surface("a",
+                       "<P id=\"1\">200.0 <!-- north --> 100.0 1.0</P>\n<P id=\"2\"><!-- first "
+                       "-->200.0 110.0<Feature code=\"k\"/> 2.0</P>\n<P id=\"7\">210.0 "
+                       "<![CDATA[100.0]]> 3.0</P>\n",
+                       "<F>1 <!-- then --> 2 7</F>\n")));
+  assert_near((got.point_m[0] - Eigen::Vector3d(100.0, 200.0, 1.0)).norm(), 0.0, 0.0);
+  assert_near((got.point_m[1] - Eigen::Vector3d(110.0, 200.0, 2.0)).norm(), 0.0, 0.0);
+  assert_near((got.point_m[2] - Eigen::Vector3d(100.0, 210.0, 3.0)).norm(), 0.0, 0.0);
+  assert_int_equal(got.face.size(), 1);
+}
+
 TEST(units_are_turned_to_metres) {
   const auto east_m = [](const char* units) {
     return read(file_of(units, surface("a", kPoints, kFaces))).point_m[0].x();
