@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The unit of cost: how long six compiles of this take says how fast a processor is now
-/// (tests/cost/budget.py). Templates and optimisation, as most of our sources; short, so that it can be
-/// made often. Whoever changes it changes every figure.
+/// (tests/cost/budget.py). Templates and optimisation, as most of our sources; short, so that it
+/// can be made often. Whoever changes it changes every figure.
 
 #include <Eigen/Core>
 #include <map>
