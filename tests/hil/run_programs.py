@@ -4,6 +4,7 @@
 Command line: OUT PROGRAM..."""
 
 import pathlib
+import shutil
 import sys
 from collections.abc import Callable
 
@@ -17,7 +18,8 @@ PROFILES = HERE.parents[1] / "app" / "machines"
 def run(script: str, out: pathlib.Path, programs: list[pathlib.Path],
         check: Callable[[pathlib.Path], list[str]], timeout_s: float, controllers: int = 0,
         extra: dict[str, pathlib.Path] | None = None, modules: tuple[str, ...] = (),
-        icount_shift: int = ICOUNT_SHIFT) -> int:
+        icount_shift: int = ICOUNT_SHIFT, tools: tuple[str, ...] = ()) -> int:
+    programs = [*programs, *(pathlib.Path(shutil.which(tool) or f"/usr/bin/{tool}") for tool in tools)]
     # Behind graben, what the guests' scripts call: plant, operate, commission; and the scope where it is tried.
     for graben in [program for program in programs if program.name == "graben"]:
         behind = ("graben-bus", "graben-scope") if script == "scope.sh" else ("graben-bus",)
@@ -45,6 +47,6 @@ def run(script: str, out: pathlib.Path, programs: list[pathlib.Path],
 
 def main(script: str, check: Callable[[pathlib.Path], list[str]], timeout_s: float,
          controllers: int = 0, extra: dict[str, pathlib.Path] | None = None,
-         modules: tuple[str, ...] = (), icount_shift: int = ICOUNT_SHIFT) -> int:
+         modules: tuple[str, ...] = (), icount_shift: int = ICOUNT_SHIFT, tools: tuple[str, ...] = ()) -> int:
     out, *programs = map(pathlib.Path, sys.argv[1:])
-    return run(script, out, programs, check, timeout_s, controllers, extra, modules, icount_shift)
+    return run(script, out, programs, check, timeout_s, controllers, extra, modules, icount_shift, tools)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Diagnosis and stored faults of the deployed process on a real CAN kernel: workshop.py OUT GRABEN_ECU. Messages are
-put together and decoded here, by J1939-21 and -73; the store's files by their layout and zlib's checksum."""
+put together and decoded here, by J1939-21 and -73, and put together by the kernel's J1939 beside that; the store's
+files by their layout and zlib's checksum."""
 
 import pathlib
 import struct
@@ -53,10 +54,14 @@ def codes(message: bytes) -> set[tuple[int, int]]:
     return {((four[0] | four[1] << 8 | four[2] >> 5 << 16) - SPN_BASE, four[2] & 31) for four in fours}
 
 
-def check_bus(log: list[bus_log.Frame]) -> list[str]:
-    # Until it is told to end for the first time.
+def first_run(log: list[bus_log.Frame]) -> list[bus_log.Frame]:
+    """Until the process is told to end for the first time; a broadcast may be cut there."""
     end = min(frame.time for frame in log if frame.name == ECU_STATUS and frame.mode == STOPPING)
-    log = [frame for frame in log if frame.time < end]
+    return [frame for frame in log if frame.time < end]
+
+
+def check_bus(log: list[bus_log.Frame]) -> list[str]:
+    log = first_run(log)
     found, problems = broadcasts(log)
     said = [(time, codes(message)) for time, group, message in found if group == DM1]
     if not said or {fault for fault, _ in said[-1][1]} != MISSING or {mode for _, mode in said[-1][1]} - {9, 14, 19, 31}:
@@ -80,6 +85,23 @@ def check_bus(log: list[bus_log.Frame]) -> list[str]:
     return problems + ([f"DM1 late: {late}"] if late else [])
 
 
+def check_others(out: pathlib.Path) -> list[str]:
+    """What j1939cat got of the kernel: every DM1, as it was put together here; and the one that it asked for alone."""
+    log = first_run(bus_log.frames(out / "vcan0.log"))
+    whole = [(time, message) for time, group, message in broadcasts(log)[0] if group == DM1]
+    whole += [(frame.time, frame.data) for frame in log if frame.name == f"18{DM1:04X}82"]
+    ours = b"".join(message for _, message in sorted(whole))
+    kernels, alone = (out / "dm1").read_bytes(), (out / "to_f8").read_bytes()
+    print(f"workshop: the kernel put together {len(kernels)} bytes of DM1 by broadcasts, {len(alone)} for one tool")
+    problems = []
+    # It goes on with what later runs say.
+    if not ours or kernels[:len(ours)] != ours:
+        problems.append(f"the kernel has {len(kernels)} bytes of DM1, put together here are {len(ours)}, or other ones")
+    if not alone or codes(alone) != max((codes(message) for _, message in whole), key=len):
+        problems.append(f"DM1 for one tool: {alone.hex()}")
+    return problems
+
+
 def stored(folder: pathlib.Path) -> dict[int, int]:
     """Fault -> occurrences, of the newest copy."""
     newest, payload = -1, b""
@@ -95,7 +117,7 @@ def stored(folder: pathlib.Path) -> dict[int, int]:
 
 
 def check(out: pathlib.Path) -> list[str]:
-    problems = check_bus(bus_log.frames(out / "vcan0.log"))
+    problems = check_bus(bus_log.frames(out / "vcan0.log")) + check_others(out)
     before, after = stored(out / "before"), stored(out / "after")
     if set(before) != MISSING or set(before.values()) != {1} or after:
         problems.append(f"stored: {before}, after DM11 {after}")
@@ -116,4 +138,4 @@ def check(out: pathlib.Path) -> list[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(run_programs.main("workshop.sh", check, timeout_s=90.0))
+    sys.exit(run_programs.main("workshop.sh", check, timeout_s=90.0, modules=("can_j1939",), tools=("j1939cat",)))

@@ -7,6 +7,9 @@
 
 vcan_up vcan0
 record vcan0
+# Others' J1939 beside ours: the kernel puts DM1 together, and takes what is for address F8.
+j1939cat vcan0:0xf7,0xfeca -B -r >"$OUT/dm1" &
+j1939cat vcan0:0xf8 -r >"$OUT/to_f8" &
 ecu_start vcan0 excavator_22t.toml --stats "$OUT/stats" --store /store
 sleep 12.5
 # DM2; a group that there is not, of us and of all; DM3; what is no request; DM1 of us alone, which is long.
@@ -14,6 +17,11 @@ for request in 18EA82F9#CBFE00 18EA82F9#ECFE00 18EAFFF9#ECFE00 18EA82F9#CCFE00 1
   cansend vcan0 "$request"
   sleep 0.3
 done
+# DM1 for the kernel's tool alone, once the other has been given up.
+sleep 1.3
+printf '\312\376\0' >/tmp/request
+j1939cat -i /tmp/request vcan0:0xf8,0xea00 :0x82,0xea00
+sleep 1
 mkdir "$OUT/before" "$OUT/after"
 cp /store/* "$OUT/before"
 cansend vcan0 18EA82F9#D3FE00
