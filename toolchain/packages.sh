@@ -65,6 +65,7 @@ graben_missing() {
     # A user's PATH may lead past it.
     has_command ip || [ -x /usr/sbin/ip ] || [ -x /sbin/ip ] || echo iproute2
     has_command busybox || echo busybox-static
+    has_command mkfs.ext4 || [ -x /usr/sbin/mkfs.ext4 ] || [ -x /sbin/mkfs.ext4 ] || echo e2fsprogs
     has_command qemu-system-x86_64 || echo qemu-system-x86
   fi
   if [ "$1" = cross ]; then

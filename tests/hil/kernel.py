@@ -20,7 +20,8 @@ METAPACKAGE = "linux-image-rt-amd64"
 # The kernel, and the wanted modules, most by folder, with all they depend on: 12 of 390 MB.
 WANTED = ["./boot/vmlinuz-*", *(f"./lib/modules/*/kernel/{part}" for part in (
     "net/can/*", "drivers/net/can/*", "net/9p/*", "fs/9p/*", "fs/netfs/*", "fs/fscache/*",
-    "drivers/virtio/*", "net/sched/*", "drivers/input/evdev.ko", "drivers/input/misc/uinput.ko"))]
+    "drivers/virtio/*", "net/sched/*", "drivers/input/evdev.ko", "drivers/input/misc/uinput.ko",
+    "drivers/block/virtio_blk.ko", "fs/ext4/*", "fs/jbd2/*", "fs/mbcache.ko", "lib/crc16.ko", "crypto/crc32c_generic.ko"))]
 # In the name of a kernel's folder: one that was unpacked for fewer modules is not taken.
 UNPACKED = f"{zlib.crc32(' '.join(WANTED).encode()):08x}"
 VERSIONED = re.compile(r"^[ |]*Depends: (linux-image-\d\S*)$", re.MULTILINE)
