@@ -15,11 +15,13 @@
 #include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/faults_on_bus.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/ecu/store/folder_files.hpp"
 #include "app/ecu/store/stored_faults.hpp"
 #include "app/runs/code_text.hpp"
+#include "hal/link/message_rules.hpp"
 
 namespace graben::cli {
 namespace {
@@ -30,6 +32,7 @@ constexpr double kSecondsPerHour = 3600.0;
 
 struct FaultsCommand {
   std::string store;
+  FaultsOnBus bus;
   bool json = false;
   int frame = 0;
 };
@@ -239,23 +242,49 @@ void print_json(const ecu::StoredFaults& found) {
 void add_faults(CLI::App& app, int& status) {
   auto options = std::make_shared<FaultsCommand>();
   CLI::App* command = add_command(app, "faults");
-  command
-      ->add_option("--store", options->store,
-                   "Folder that graben-ecu had as --store; as a service, /var/lib/graben-ecu. "
-                   "Nothing in it is changed")
-      ->required();
-  CLI::Option* json =
+  CLI::Option* const store = command->add_option(
+      "--store", options->store,
+      "Folder that graben-ecu had as --store; as a service, /var/lib/graben-ecu. Nothing in it is "
+      "changed");
+  CLI::Option* const can =
+      command
+          ->add_option("--can", options->bus.interface,
+                       "CAN interface, such as can0: asks the ECU there, as a workshop's tool of "
+                       "SAE J1939 does, for the faults that are active and stored")
+          ->excludes(store);
+  command->add_option("--address", options->bus.address, "The ECU's, 0 .. 253")
+      ->check(whole_number_between(0, 253))
+      ->default_val(static_cast<int>(kOwnAddress))
+      ->needs(can);
+  CLI::Option* const json =
       command->add_flag("--json", options->json, "All of it as JSON, freeze frames too");
   command
       ->add_option("--frame", options->frame,
                    "The freeze frame of the fault of this number, as CSV")
       ->check(whole_number_between(1, kFaultCount - 1))
+      ->needs(store)
+      ->excludes(json);
+  command
+      ->add_option("--clear", options->bus.clear,
+                   "Clears the stored records of faults that are not active any more, or that are. "
+                   "Not while the machine is armed or active")
+      ->check(one_of({"previous", "active"}))
+      ->needs(can)
       ->excludes(json);
   add_examples(*command, {"faults --store /var/lib/graben-ecu",
                           "faults --store /var/lib/graben-ecu --frame 1",
-                          "faults --store /var/lib/graben-ecu --json"});
+                          "faults --store /var/lib/graben-ecu --json", "faults --can can0",
+                          "faults --can can0 --clear previous"});
   command->callback([options, &status] {
     status = guarded("faults", [&] {
+      if (!options->bus.interface.empty()) {
+        options->bus.json = options->json;
+        faults_on_bus(options->bus);
+        return;
+      }
+      if (options->store.empty()) {
+        throw std::runtime_error("--store or --can is wanted");
+      }
       const ecu::StoredFaults found = read_store(options->store);
       if (options->json) {
         print_json(found);

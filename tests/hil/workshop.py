@@ -3,6 +3,7 @@
 put together and decoded here, by J1939-21 and -73, and put together by the kernel's J1939 beside that; the store's
 files by their layout and zlib's checksum."""
 
+import json
 import pathlib
 import struct
 import sys
@@ -73,12 +74,13 @@ def check_bus(log: list[bus_log.Frame]) -> list[str]:
         problems.append(f"to the tool alone: {alone}")
     answers = [(frame.data[0], frame.data[4], int.from_bytes(frame.data[5:8], "little"))
                for frame in log if frame.name == ACKNOWLEDGMENT]
-    wanted = [(REFUSED, TOOL, NOTHING), (DONE, TOOL, DM3), (DONE, TOOL, DM11)]
+    wanted = [(REFUSED, TOOL, NOTHING), (DONE, TOOL, DM3), (DONE, TOOL, DM3), (DONE, TOOL, DM11)]
     if answers != wanted:
         problems.append(f"acknowledged: {answers} instead of {wanted}")
     # What is stored is active: there is nothing that was active before.
     told = [frame.data for frame in log if frame.name == f"18{DM2:04X}82"]
-    if len(told) != 1 or told[0][2:6] != bytes(4):
+    # One was asked for by `graben faults`.
+    if len(told) != 2 or any(one[2:6] != bytes(4) for one in told):
         problems.append(f"DM2: {[data.hex() for data in told]}")
     print(f"workshop: {len(said)} DM1 of up to {max((len(one) for _, one in said), default=0)} codes, "
           f"{len(answers)} acknowledgments")
@@ -102,6 +104,18 @@ def check_others(out: pathlib.Path) -> list[str]:
     return problems
 
 
+def check_tool(out: pathlib.Path) -> list[str]:
+    """What `graben faults --can` says."""
+    said = json.loads((out / "faults.json").read_text())
+    active = {one["fault"] for one in said["active"]["codes"]}
+    problems = []
+    if active != MISSING or said["previous"]["codes"] or not said["active"]["amber_warning_lamp"] | said["active"]["red_stop_lamp"]:
+        problems.append(f"graben faults: {said}")
+    if "address 33: DM1: no answer" not in (out / "nobody").read_text() or "cleared" not in (out / "cleared").read_text():
+        problems.append("graben faults: nobody, or what was cleared, is not said")
+    return problems
+
+
 def stored(folder: pathlib.Path) -> dict[int, int]:
     """Fault -> occurrences, of the newest copy."""
     newest, payload = -1, b""
@@ -117,7 +131,7 @@ def stored(folder: pathlib.Path) -> dict[int, int]:
 
 
 def check(out: pathlib.Path) -> list[str]:
-    problems = check_bus(bus_log.frames(out / "vcan0.log")) + check_others(out)
+    problems = check_bus(bus_log.frames(out / "vcan0.log")) + check_others(out) + check_tool(out)
     before, after = stored(out / "before"), stored(out / "after")
     if set(before) != MISSING or set(before.values()) != {1} or after:
         problems.append(f"stored: {before}, after DM11 {after}")

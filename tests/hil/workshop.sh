@@ -22,6 +22,10 @@ sleep 1.3
 printf '\312\376\0' >/tmp/request
 j1939cat -i /tmp/request vcan0:0xf8,0xea00 :0x82,0xea00
 sleep 1
+# Our own tool for a workshop.
+graben faults --can vcan0 --json >"$OUT/faults.json" || fail 'graben faults'
+graben faults --can vcan0 --address 33 2>"$OUT/nobody" && fail 'an ECU that there is not has answered'
+graben faults --can vcan0 --clear previous >"$OUT/cleared" || fail 'nothing cleared'
 mkdir "$OUT/before" "$OUT/after"
 cp /store/* "$OUT/before"
 cansend vcan0 18EA82F9#D3FE00
