@@ -8,7 +8,10 @@ graben_build() {
   mkdir -p "$1/build"
   # `./run a | ./run b` starts two at once, and Ninja does not lock its folder.
   (
-    if has_command flock; then flock 9; fi
+    if has_command flock && ! flock -n 9; then
+      graben_say "waits for another build in build/"
+      flock 9
+    fi
     graben_build_locked "$1" "$2" "${3-all}" "${4-}" 9>&-
   ) 9>"$1/build/.lock" </dev/null
 }

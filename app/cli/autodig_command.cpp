@@ -15,6 +15,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/autodig_run.hpp"
 #include "app/runs/code_text.hpp"
+#include "app/runs/plant_faults.hpp"
 #include "app/runs/run_log.hpp"
 #include "app/scope/page/scope_page.hpp"
 
@@ -116,6 +117,10 @@ void run_task(const TaskCommand& options) {
         "higher\n",
         1e2 * summary.built.within_ratio, summary.built.left_m3);
   }
+  fmt::print("{}",
+             runs::told_faults_text(options.faults, result.faults_left,
+                                    result.samples.empty() ? 0.0 : result.samples.back().time_s,
+                                    result.fault != Fault::kNone));
   throw_unless_done(task, result);
 }
 

@@ -20,6 +20,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/code_text.hpp"
 #include "app/runs/dig_run.hpp"
+#include "app/runs/plant_faults.hpp"
 #include "app/runs/run_log.hpp"
 #include "app/scope/page/scope_page.hpp"
 
@@ -133,6 +134,10 @@ void dig(const DigCommand& options) {
     write_whole(file, reports::svg_text(reports::kim_figure(name, machine, result, summary)));
     fmt::print("figure  {}\n", file.string());
   }
+  fmt::print("{}",
+             runs::told_faults_text(options.faults, result.faults_left,
+                                    result.samples.empty() ? 0.0 : result.samples.back().time_s,
+                                    result.fault != Fault::kNone));
   if (result.end != runs::DigEnd::kDone) {
     throw std::runtime_error(result.end == runs::DigEnd::kFault
                                  ? fmt::format("{}: {} (fault {}){}", end_text(result.end),

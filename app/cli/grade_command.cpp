@@ -21,6 +21,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/grade_run.hpp"
+#include "app/runs/plant_faults.hpp"
 #include "app/runs/run_log.hpp"
 #include "app/runs/speed_table.hpp"
 #include "app/scope/page/scope_page.hpp"
@@ -135,6 +136,10 @@ void grade(const GradeCommand& told) {
                           reports::mononen_figure(name, is_constant, machine, result, summary)));
     fmt::print("figure  {}\n", file.string());
   }
+  fmt::print("{}",
+             runs::told_faults_text(options.faults, result.faults_left,
+                                    result.samples.empty() ? 0.0 : result.samples.back().time_s,
+                                    result.fault != Fault::kNone));
   if (result.end != runs::GradeEnd::kDone) {
     throw std::runtime_error(end_text(result));
   }

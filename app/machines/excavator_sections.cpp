@@ -147,7 +147,8 @@ LineProfile read_line(TomlReader& reader) {
 SpoolProfile read_spool(TomlReader& reader, const std::string& axis, int pump_count,
                         PumpKind kind) {
   SpoolProfile spool;
-  spool.pump = reader.integer("valve.pump." + axis, 1, pump_count,
+  // A list of keys is of any machine.
+  spool.pump = reader.integer("valve.pump." + axis, 1, reader.lists() ? kPumpCount : pump_count,
                               "number of the pump that feeds it, from 1") -
                1;
   const std::vector<double> areas =

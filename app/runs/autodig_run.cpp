@@ -69,6 +69,7 @@ class AutodigRun {
       result_.built = as_built(program_, soil->ground());
     }
     result_.wall_s = figures.wall_s;
+    result_.faults_left = faults_.left();
     result_.rejected_frames = figures.rejected_frames;
     return std::move(result_);
   }

@@ -43,6 +43,7 @@ class DigRun {
           show(progress_.share(), progress_.on_path() ? "on the path" : "approaching the path");
         });
     result_.wall_s = figures.wall_s;
+    result_.faults_left = faults_.left();
     result_.rejected_frames = figures.rejected_frames;
     result_.loops = progress_.share() * options_.loops;
     result_.peak_chamber_pressure_pa = rig_.plant.plant().peak_chamber_pressure_pa();

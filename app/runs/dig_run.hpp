@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/machines/simulated/simulated_excavator.hpp"
@@ -74,6 +75,7 @@ enum class DigEnd { kDone, kPathNotReached, kLoopNotClosed, kFault };
 struct DigResult {
   DigEnd end = DigEnd::kDone;
   Fault fault = Fault::kNone;  ///< With kFault.
+  std::vector<std::string> faults_left;  ///< Of those that were told, as they were; not reached.
   NodeEmergency emergency;     ///< That stood then.
   std::vector<DigSample> samples;
   double wall_s = 0.0;

@@ -37,6 +37,7 @@ class GradeRun {
           show((edge_x_m() - start_m_) / way_m(), fmt::format("at {:.1f} m", edge_x_m()));
         });
     result_.wall_s = figures.wall_s;
+    result_.faults_left = faults_.left();
     result_.rejected_frames = figures.rejected_frames;
     keep_terrain();
     return std::move(result_);

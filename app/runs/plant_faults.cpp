@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/machines/near_word.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 
 namespace graben::runs {
@@ -221,13 +222,13 @@ double number_of(const std::string& text, const std::string& part, const char* w
 }
 
 template <class Faults>
-std::string names_of(const PlantFaultTable<Faults>& table) {
+std::vector<std::string> names_of(const PlantFaultTable<Faults>& table) {
   std::vector<std::string> names;
   names.reserve(table.size());
   for (const auto& [name, set] : table) {
     names.push_back(name);
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names;
 }
 
 }  // namespace
@@ -269,10 +270,12 @@ PlantFaultSchedule<Faults>::PlantFaultSchedule(const PlantFaultTable<Faults>& ta
   for (const std::string& text : told) {
     const ToldFault fault = told_fault(text);
     if (table_.find(fault.name) == table_.end()) {
-      throw std::runtime_error(fmt::format("--fault: '{}' is unknown to this machine; known: {}",
-                                           fault.name, names_of(table_)));
+      const std::vector<std::string> names = names_of(table_);
+      throw std::runtime_error(fmt::format("--fault: '{}' is unknown to this machine{}\nknown: {}",
+                                           fault.name, machines::near_word_hint(fault.name, names),
+                                           fmt::join(names, ", ")));
     }
-    left_.push_back({fault, static_cast<std::uint8_t>(left_.size() + 1)});
+    left_.push_back({fault, static_cast<std::uint8_t>(left_.size() + 1), text});
   }
   std::stable_sort(left_.begin(), left_.end(), [](const Planned& a, const Planned& b) {
     return a.fault.at_us < b.fault.at_us;
@@ -293,6 +296,29 @@ void PlantFaultSchedule<Faults>::apply(TimeUs now_us, Faults& faults, CanPort& p
     // The mark is for who reads the log: the fault is there without it.
     static_cast<void>(port.send(mark));
   }
+}
+
+template <class Faults>
+std::vector<std::string> PlantFaultSchedule<Faults>::left() const {
+  std::vector<std::string> texts;
+  for (const Planned& planned : left_) {
+    texts.push_back(planned.text);
+  }
+  return texts;
+}
+
+std::string told_faults_text(const std::vector<std::string>& told,
+                             const std::vector<std::string>& left, double run_s, bool is_seen) {
+  if (!left.empty()) {
+    throw std::runtime_error(fmt::format("--fault {}: the run ended at {:.2f} s, before it came",
+                                         fmt::join(left, ", "), run_s));
+  }
+  return told.empty() || is_seen
+             ? ""
+             : fmt::format(
+                   "fault   {}: the controller did not see it; what it cost is in the "
+                   "figures of the true machine\n",
+                   fmt::join(told, ", "));
 }
 
 template class PlantFaultSchedule<plant::ExcavatorFaults>;

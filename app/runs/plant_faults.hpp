@@ -43,15 +43,24 @@ class PlantFaultSchedule {
   /// Sets all that have come since the last call. Each is said on the bus by an 11-bit frame 7F0,
   /// whose one byte is its place among those that were told, from 1: a log then has its time.
   void apply(TimeUs now_us, Faults& faults, CanPort& port);
+  /// Those that have not come yet, each as it was told.
+  [[nodiscard]] std::vector<std::string> left() const;
 
  private:
   struct Planned {
     ToldFault fault;
     std::uint8_t place = 0;
+    std::string text;  ///< As it was told.
   };
   const PlantFaultTable<Faults>& table_;
   std::vector<Planned> left_;
 };
+
+/// After a run: a line for the terminal where faults came and the controller saw none of them,
+/// empty else. Throws std::runtime_error where one was told for later than the run's end.
+[[nodiscard]] std::string told_faults_text(const std::vector<std::string>& told,
+                                           const std::vector<std::string>& left, double run_s,
+                                           bool is_seen);
 
 extern template class PlantFaultSchedule<plant::ExcavatorFaults>;
 extern template class PlantFaultSchedule<plant::DozerFaults>;

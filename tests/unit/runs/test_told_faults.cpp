@@ -25,6 +25,19 @@ std::string refusal(const std::string& text) {
       [&] { return PlantFaultSchedule<plant::ExcavatorFaults>(excavator_plant_faults(), {text}); });
 }
 
+/// What was told and never came is an error; what came and was not seen is said.
+TEST(what_came_of_the_told_faults_is_said) {
+  assert_true(told_faults_text({}, {}, 10.0, false).empty());
+  assert_true(told_faults_text({"a@1"}, {}, 10.0, true).empty());
+  assert_true(graben::test::has(told_faults_text({"a@1", "b@2"}, {}, 10.0, false),
+                                "a@1, b@2: the controller did not see it"));
+  assert_true(graben::test::has(
+      graben::test::refusal_of([] {
+        static_cast<void>(told_faults_text({"a@1", "b@20"}, {"b@20"}, 10.5, true));
+      }),
+      "--fault b@20: the run ended at 10.50 s, before it came"));
+}
+
 TEST(texts_are_read) {
   const ToldFault drift = told_fault("boom-stroke:drift=-0.01@2.5");
   assert_string_equal(drift.name.c_str(), "boom-stroke:drift");
@@ -45,6 +58,7 @@ TEST(wrong_texts_are_refused) {
                {"boom-stroke:step=x@1", "'x' is no number"},
                {"boom-stroke:step=@1", "'' is no number"},
                {"boom-stroke:step=1mm@1", "'1mm' is no number"},
+               {"boom-stroke:frzen@1", "did you mean 'boom-stroke:frozen'?"},
                {"blade-stroke:frozen@1", "known: "}};
   for (const auto& tried : cases) {
     assert_non_null(std::strstr(refusal(tried.text).c_str(), tried.says));
@@ -199,7 +213,7 @@ TEST(a_fault_stops_a_run_in_memory) {
   grade.faults = {"boom-stroke:frozen@1"};
   assert_non_null(
       strstr(graben::test::refusal_of([&] { return run_grade(dozer, grade, show); }).c_str(),
-             "unknown to this machine; known: blade-spool:held"));
+             "unknown to this machine\nknown: blade-spool:held"));
 }
 
 TEST(a_run_is_given_up_when_told) {
