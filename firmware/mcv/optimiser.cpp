@@ -73,10 +73,9 @@ PolicyResult choose_with_reserve(McvCircuit& circuit, McvPolicy policy, const La
 
 /// What earlier solves of the cycle have left, shared between searching and halving as it is in
 /// one.
-Work work_after(int taken) {
-  const int all = kSearchSteps + kHalvingSteps;
-  const int left = std::clamp(all - taken, kLeastSteps, all);
-  const int kept = left * kHalvingSteps / all;
+Work work_after(int taken, const SolveSteps& steps) {
+  const int left = std::clamp(steps.all() - taken, steps.least, steps.all());
+  const int kept = left * steps.halving / steps.all();
   return {left - kept, kept};
 }
 
@@ -193,6 +192,16 @@ bool finite(const McvSolution& solution) {
 
 }  // namespace
 
+SolveSteps solve_steps(const McvMachine& machine, McvPolicy policy) {
+  bool small = policy == McvPolicy::kGlobal && machine.actuator_count <= kSmallActuators &&
+               machine.pump_count <= kSmallPumps;
+  for (unsigned j = 0; j < static_cast<unsigned>(machine.pump_count); ++j) {
+    small = small && !machine.pump[j].regulator.sets_swash();
+  }
+  return small ? SolveSteps{kSmallSearchSteps, kSmallHalvingSteps, kSmallLeastSteps}
+               : SolveSteps{kSearchSteps, kHalvingSteps, kLeastSteps};
+}
+
 McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolicy policy,
                       const LambdaRange& range) {
   McvSolution solution;
@@ -200,7 +209,7 @@ McvSolution solve_mcv(const McvMachine& machine, const McvInput& input, McvPolic
   if (solution.defect.defect != McvDefect::kNone) {
     return solution;
   }
-  Work work = work_after(range.taken);
+  Work work = work_after(range.taken, solve_steps(machine, policy));
   const int given = work.left + work.kept;
   McvCircuit circuit = make_circuit(machine, input, &work);
   const PolicyResult chosen = choose_with_reserve(circuit, policy, range);

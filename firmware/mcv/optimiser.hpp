@@ -36,7 +36,7 @@ struct McvSolution {
   McvMargins margins;     ///< At the lambda returned; at lambda 0 those of (43).
   Standstill standstill;  ///< Looked at only where lambda is 0.
   int iterations = 0;
-  int steps = 0;    ///< Of kSearchSteps and kHalvingSteps.
+  int steps = 0;    ///< Of SolveSteps.
   McvCheck defect;  ///< Set with kBadInput.
 };
 
@@ -53,6 +53,20 @@ struct LambdaRange {
   double hold_share = 1.0;
   int taken = 0;  ///< McvSolution::steps of earlier solves in this cycle; it has what they left.
 };
+
+/// How many steps the searches of a solve may take: `search` and, kept for halving, `halving`; and
+/// `least`, whatever earlier solves of its cycle took. Where they end before a search does, halving
+/// gives a lambda that may be smaller, and where that has no end either, kNotConverged says so.
+struct SolveSteps {
+  int search = 0;
+  int halving = 0;
+  int least = 0;
+
+  [[nodiscard]] int all() const { return search + halving; }
+};
+
+/// By how much circuit there is, of a machine that passed its check.
+[[nodiscard]] SolveSteps solve_steps(const McvMachine& machine, McvPolicy policy);
 
 /// Largest lambda in [0, range.most] by `policy` (kFixed alone asks for no feasibility: comparisons
 /// only). Bad input, no feasible lambda and an iteration that did not end each give lambda 0 with

@@ -51,6 +51,19 @@ inline constexpr int kHalvingSteps = 320;
 /// has as many unless the first was one of the others]
 inline constexpr int kLeastSteps = 240;
 
+/// Actuators of a small circuit at most: one by the policy for the largest lambda, whose pumps
+/// regulate nothing. [-; derived: as many as the shipped machines have]
+inline constexpr int kSmallActuators = 4;
+/// Pumps of it at most. [-; derived: as many as the shipped machines have]
+inline constexpr int kSmallPumps = 2;
+/// Its kSearchSteps. [-; size: both solves of a fuzzed cycle take 120 together; any inputs of the
+/// shipped valves 300 at most in 120 000, all but a thousandth 204]
+inline constexpr int kSmallSearchSteps = 200;
+/// Its kHalvingSteps. [-; size: Algorithm 1 takes 193 at most there]
+inline constexpr int kSmallHalvingSteps = 200;
+/// Its kLeastSteps. [-; size: as many as both solves of a fuzzed cycle take together]
+inline constexpr int kSmallLeastSteps = 120;
+
 /// Multiple of a spool table's last c_L and travel beyond which a shortfall is not told apart. [-;
 /// chosen: not tried]
 inline constexpr double kShortfallMost = 16.0;

@@ -71,9 +71,14 @@ def stages(image, summary):
     for times, one in summary.calls:
         inside = one.calls if "Controller::step(" in image.word(one.entry) else [(1, one)]
         for more, part in inside:
-            name = shortened(image.word(part.entry)).replace("graben::", "")
+            name = part_name(image.word(part.entry))
             found[name] = found.get(name, 0) + times * more * part.bound
     return found
+
+
+def part_name(word):
+    """As bounds.toml has it."""
+    return shortened(word).replace("graben::", "")
 
 
 def shortened(word):
@@ -116,7 +121,7 @@ def parse(words=None):
 def main():
     options = parse()
     if options.show:
-        print("\n".join(bounds.table(bounds.known())))
+        print("\n".join([*bounds.table(bounds.known()), "", *bounds.parts_table(bounds.known())]))
         return []
     image = Image(options.tools, options.image)
     machine = machine_of(image)

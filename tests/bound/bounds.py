@@ -11,6 +11,8 @@ OBSERVED = HERE.parent / "timing" / "counts" / "observed.json"
 DRIFT = 0.02
 # Parts of a step that are less than this share of it are not written down.
 LEAST_SHARE = 0.001
+# Those that are less are not in the table.
+PART_SHARE = 0.01
 
 
 def known():
@@ -28,7 +30,8 @@ def judge(name, found, update):
         summary, stages = max(((one, of) for whose, (one, of) in found.items() if whose != "any" or len(found) == 1),
                               key=lambda pair: pair[0].bound)
         parts = {part: bound for part, bound in stages.items() if bound >= LEAST_SHARE * summary.bound}
-        bounds.setdefault(target, {})[kind] = {**now, "of": parts}
+        seen = bounds.get(target, {}).get(kind, {}).get("seen", {})
+        bounds.setdefault(target, {})[kind] = {**now, "of": parts, "seen": seen}
         write(bounds)
     was = bounds.get(target, {}).get(kind, {})
     problems = []
@@ -56,13 +59,16 @@ def observed(target, kind, whose="any"):
 
 def write(bounds):
     lines = ["# What bound.py --toml has found: instructions of a step at most, of any machine and of some; bytes of stack;",
-             "\n# and what of the dearest of those machines is whose.\n"]
+             "\n# what of the dearest of those machines is whose, and `seen` of those in fuzzed cycles (held_bounds.py).\n"]
     for target in sorted(bounds):
         for kind, row in sorted(bounds[target].items()):
             lines.append(f"\n[{target}.{kind}]\n")
-            lines += [f"{figure} = {value}\n" for figure, value in row.items() if figure != "of"]
-            lines.append(f"\n[{target}.{kind}.of]\n")
-            lines += [f'"{part}" = {bound}\n' for part, bound in sorted(row["of"].items(), key=lambda pair: -pair[1])]
+            lines += [f"{figure} = {value}\n" for figure, value in row.items() if figure not in ("of", "seen")]
+            for whose in ("of", "seen"):
+                if row.get(whose):
+                    lines.append(f"\n[{target}.{kind}.{whose}]\n")
+                    lines += [f'"{part}" = {count}\n'
+                              for part, count in sorted(row[whose].items(), key=lambda pair: -pair[1])]
     BOUNDS.write_text("".join(lines), "utf-8")
 
 
@@ -72,9 +78,32 @@ def table(bounds):
     for target in sorted(bounds):
         for kind, row in sorted(bounds[target].items()):
             for whose, bound in row.items():
-                if whose not in ("of", "stack"):
+                if whose not in ("of", "seen", "stack"):
                     seen = observed(target, kind, whose)
                     ratio = f"{bound / seen:.1f}" if seen else "-"
                     rows.append(f"| {target} | {kind} | {whose} | {bound:,} | {seen:,} | {ratio} | {row['stack']:,} |"
+                                .replace(",", " "))
+    return rows
+
+
+def take_over_seen(name, of_step):
+    """What the parts of a step took at most, of those that bounds.toml has."""
+    target, kind = name.split(".")
+    bounds = known()
+    row = bounds[target][kind]
+    row["seen"] = {part: of_step[part] for part in row["of"] if part in of_step}
+    write(bounds)
+
+
+def parts_table(bounds):
+    """Of the images whose parts were counted, those that are a hundredth of the step at least."""
+    rows = ["| Target | Kind | Part of the step | Bound, instructions | Fuzzed | Bound / fuzzed |",
+            "| --- | --- | --- | ---: | ---: | ---: |"]
+    for target in sorted(bounds):
+        for kind, row in sorted(bounds[target].items()):
+            for part, bound in row["of"].items():
+                seen = row.get("seen", {}).get(part, 0)
+                if seen and bound >= PART_SHARE * sum(row["of"].values()):
+                    rows.append(f"| {target} | {kind} | `{part}` | {bound:,} | {seen:,} | {bound / seen:.1f} |"
                                 .replace(",", " "))
     return rows

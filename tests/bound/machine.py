@@ -10,7 +10,8 @@ import tomllib
 
 from listing import Refusal
 
-NAMES = {"drives", "pumps", "regulated_pumps", "fences", "keep_outs", "link_imus", "tables", "wheels"}
+NAMES = {"drives", "pumps", "regulated_pumps", "fences", "keep_outs", "link_imus", "tables", "wheels",
+         "solve_steps", "cycle_steps"}
 
 
 def counts(file):

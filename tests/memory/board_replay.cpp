@@ -6,14 +6,13 @@
 #include <cstdio>
 
 #include "tests/memory/bare_ecu.hpp"
+#include "tests/memory/painted_stack.hpp"
 #include "tests/memory/setup.hpp"
 
 namespace graben::memory {
 namespace {
 
 constexpr TimeUs kPeriod_us = 10'000;
-constexpr std::uint32_t kPaint = 0xA5C33C5AU;
-constexpr int kPaintedWords = 8192;
 
 struct Place {
   int cycle = -1;
@@ -67,17 +66,8 @@ BusState Board::bus() { return BusState::kActive; }
 
 int main() {
   using namespace graben::memory;
-  volatile std::uint32_t* top = nullptr;
-  asm volatile("mov %0, sp" : "=r"(top));
-  for (int word = 1; word <= kPaintedWords; ++word) {
-    *(top - word) = kPaint;
-  }
+  volatile std::uint32_t* const top = paint_stack();
   run_image();
-  int untouched = 0;
-  while (untouched < kPaintedWords && *(top - kPaintedWords + untouched) == kPaint) {
-    ++untouched;
-  }
-  std::printf("stack %d\nframes %d differing %d\n", 4 * (kPaintedWords - untouched), at.sent,
-              at.differing);
+  std::printf("stack %d\nframes %d differing %d\n", taken_below(top), at.sent, at.differing);
   return 0;
 }

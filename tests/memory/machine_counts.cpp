@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "firmware/mcv/optimiser.hpp"
+#include "firmware/mcv/tuning.hpp"
+
 namespace graben::memory {
 namespace {
 
@@ -14,6 +17,7 @@ struct ExcavatorCounts {
   int fences = 0;
   int keep_outs = 0;
   int link_imus = 0;
+  SolveSteps steps = {kSearchSteps, kHalvingSteps, kLeastSteps};
 };
 
 void write(const char* name, const ExcavatorCounts& counts) {
@@ -21,6 +25,8 @@ void write(const char* name, const ExcavatorCounts& counts) {
               counts.pumps, counts.regulated_pumps);
   std::printf("fences = %d\nkeep_outs = %d\nlink_imus = %d\n", counts.fences, counts.keep_outs,
               counts.link_imus);
+  std::printf("solve_steps = %d\ncycle_steps = %d\n", counts.steps.all(),
+              counts.steps.all() + counts.steps.least);
   // A bus that is not ours is a process's (app/ecu): no image has a table.
   std::printf("tables = 0\n");
 }
@@ -52,8 +58,13 @@ void write_most(const DozerSetup& setup) {
 }
 
 void write_counts(const char* name, const ExcavatorSetup& setup) {
-  ExcavatorCounts counts{
-      setup.bank.count, setup.valve.pump_count, regulated_of(setup.valve), 0, 0, 0};
+  ExcavatorCounts counts{setup.bank.count,
+                         setup.valve.pump_count,
+                         regulated_of(setup.valve),
+                         0,
+                         0,
+                         0,
+                         solve_steps(setup.valve, setup.profile.control.lambda_policy)};
   for (int i = 0; i < setup.book.count; ++i) {
     const FenceSet& fences = setup.book.program[static_cast<unsigned>(i)].fences;
     counts.fences = std::max(counts.fences, fences.count);

@@ -198,6 +198,41 @@ TEST(a_held_heel_is_lifted_straight_up) {
   assert_true(task_aim(machine().kinematics, program, state).teeth.attitude_rad < 0.45);
 }
 
+/// Where the first way is beyond what the machine can, the next one is looked at in the next cycle;
+/// it ends with the way that lift_line() finds at once.
+TEST(a_lift_tries_one_way_a_cycle_and_stands_meanwhile) {
+  const TaskProgram program = planned();
+  const TaskState cut = cut_beyond(program, 0.5);
+  int waited = 0;
+  int found = 0;
+  for (double x_m = 3.0; x_m < 8.5; x_m += 0.25) {
+    for (double z_m = -1.0; z_m < 5.0; z_m += 0.25) {
+      CutSeen seen = follows(program, cut);
+      seen.teeth = {{x_m, 0.0, z_m}, 1.0};
+      const DigCycle cycle{
+          machine().profile, machine().kinematics, program, kCycle_s, kCycle_s, seen};
+      TaskState state = cut;
+      enter_phase<LiftPhase>(cycle, state.step, state);
+      unsigned cycles = 1;
+      for (; state.dig.tries > 0; ++cycles) {
+        const TeethPose aim = task_aim(machine().kinematics, program, state).teeth;
+        assert_near((aim.position_m - seen.teeth.position_m).norm(), 0.0, 1e-12);
+        assert_false(LiftPhase::go_on(cycle, state));
+        assert_near(state.time_s, 0.0, 0.0);
+      }
+      assert_true(cycles <= kLiftTries);
+      const LinePlan at_once = lift_line(machine().profile, machine().kinematics, program.layers,
+                                         seen.teeth, LiftPart::kFolds);
+      assert_near(state.dig.lift.way_m, at_once.way_m, 0.0);
+      assert_near(state.dig.lift.line.change.attitude_rad, at_once.line.change.attitude_rad, 0.0);
+      waited += cycles > 1 ? 1 : 0;
+      found += cycles > 1 && at_once.way_m > 0.0 ? 1 : 0;
+    }
+  }
+  assert_true(found > 0);
+  assert_true(waited > found);
+}
+
 TEST(a_full_bucket_ends_the_cut) {
   const TaskProgram program = planned();
   const TaskState state = run_until(program, begun(program), [](const TaskState& at) {

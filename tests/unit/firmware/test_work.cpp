@@ -4,12 +4,14 @@
 
 #include <algorithm>
 
+#include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/mcv/optimiser.hpp"
 #include "firmware/mcv/policies.hpp"
 #include "firmware/mcv/tuning.hpp"
 #include "tests/fuzz/endless_work.hpp"
 #include "tests/fuzz/plain_circuit.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
+#include "tests/unit/firmware/fixture.hpp"
 
 TEST(a_step_is_taken_once) {
   assert_false(may_step(nullptr));
@@ -115,4 +117,54 @@ TEST(there_are_enough_steps) {
     }
   }
   assert_in_range(most, kSearchSteps / 2, kSearchSteps + kHalvingSteps);
+}
+
+TEST(a_small_circuit_has_fewer_steps) {
+  const McvMachine valve = mcv_machine(test::excavator().profile);
+  const SolveSteps small = solve_steps(valve, McvPolicy::kGlobal);
+  const SolveSteps large = solve_steps(valve, McvPolicy::kConnected);
+  assert_int_equal(small.all(), kSmallSearchSteps + kSmallHalvingSteps);
+  assert_int_equal(small.least, kSmallLeastSteps);
+  assert_int_equal(large.all(), kSearchSteps + kHalvingSteps);
+  assert_int_equal(large.least, kLeastSteps);
+  const auto all_of = [](const McvMachine& machine) {
+    return solve_steps(machine, McvPolicy::kGlobal).all();
+  };
+  assert_int_equal(all_of(mcv_machine(test::excavator_12t().profile)), small.all());
+  McvMachine other = valve;
+  other.actuator_count = kSmallActuators + 1;
+  assert_int_equal(all_of(other), large.all());
+  other = valve;
+  other.pump_count = kSmallPumps + 1;
+  assert_int_equal(all_of(other), large.all());
+  other = valve;
+  other.pump[1].regulator.kind = PumpKind::kNegativeFlow;
+  assert_int_equal(all_of(other), large.all());
+}
+
+/// Shipped valves, with loads that no machine has: the steps are enough for a first solve. Of a
+/// second one that has next to none they may end before a search does, and then it is said.
+TEST(a_small_circuit_has_enough_steps) {
+  int ended = 0;
+  int ran_out = 0;
+  for (const auto* profile : {&test::excavator().profile, &test::excavator_12t().profile}) {
+    const McvMachine valve = mcv_machine(*profile);
+    const SolveSteps steps = solve_steps(valve, McvPolicy::kGlobal);
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+      const McvInput input = test::random_case(seed).input;
+      LambdaRange range;
+      const McvSolution first = solve_mcv(valve, input, McvPolicy::kGlobal, range);
+      assert_int_not_equal(first.status, SolveStatus::kNotConverged);
+      assert_in_range(first.steps, 0, steps.all());
+      range.taken = steps.all();
+      const McvSolution second = solve_mcv(valve, input, McvPolicy::kGlobal, range);
+      assert_in_range(second.steps, 0, steps.least);
+      assert_true(second.point.lambda <= first.point.lambda + 1e-9);
+      assert_true(second.status != SolveStatus::kNotConverged || second.point.lambda == 0.0);
+      ended += second.status == first.status ? 1 : 0;
+      ran_out += second.status == SolveStatus::kNotConverged ? 1 : 0;
+    }
+  }
+  assert_true(ended > 5000);
+  assert_true(ran_out > 0);
 }

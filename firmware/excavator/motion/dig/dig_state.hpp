@@ -39,6 +39,13 @@ enum class TarePart : std::uint8_t {
   kReaches = 2,  ///< The arm out again.
 };
 
+/// Of a lift.
+enum class LiftPart : std::uint8_t {
+  kFolds,  ///< The bucket is folded in,
+  kOut,    ///< and lifted out of the ground;
+  kFrees,  ///< or straight up first, where its heel stands on something.
+};
+
 /// How a run stands. Lost with each pause.
 struct DigRun {
   CutPhase phase = CutPhase::kNone;
@@ -57,7 +64,9 @@ struct DigRun {
   double stood_m = 0.0;     ///< which began with the teeth at this height.
   TeethPose entered;        ///< Where the cut has gone into the ground.
   bool folds = false;       ///< The first part of a lift.
-  double weighed_kg = 0.0;  ///< What the cut has brought; 0: not known.
+  LiftPart part = LiftPart::kFolds;  ///< A way for this one is looked for,
+  std::uint8_t tries = 0;            ///< by so many lines still, one a cycle; it stands meanwhile.
+  double weighed_kg = 0.0;           ///< What the cut has brought; 0: not known.
   TarePart tares = TarePart::kNone;  ///< The empty bucket is moved before it goes back,
   bool tared = false;                ///< which is done once.
   LinePlan lift;

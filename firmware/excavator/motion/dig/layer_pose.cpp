@@ -9,6 +9,8 @@
 namespace graben {
 namespace {
 
+static_assert(kLiftTries == kLiftUps.size() * kLiftTurns.size());
+
 /// Mean speed of the turn on its way, of its most. [-; derived: kTurnFades]
 constexpr double kTurnsMean = 1.0 - 0.5 * kTurnFades;
 
@@ -162,8 +164,27 @@ TeethLine cut_line(const TaskProgram& program, const TaskState& state) {
                    state.dig.height_m + state.dug.zero_m);
 }
 
-LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                   const LayerPlan& plan, const TeethPose& from, LiftPart part) {
+namespace {
+
+/// With its ramp, or without a way where the machine can't follow it.
+LinePlan lift_along(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                    const TeethPose& from, const TeethPose& to) {
+  LinePlan lift;
+  lift.line = line_between(kinematics, from, to);
+  if (!is_reached(kinematics, lift.line)) {
+    lift.line = {from, {}};
+    return lift;
+  }
+  lift.way_m = way_m(kinematics, lift.line);
+  lift.ramp =
+      ramp_for_speed(lift.way_m, kLiftSpeed_mps, kLiftShare * profile.line.acceleration_mps2);
+  return lift;
+}
+
+}  // namespace
+
+LinePlan lift_try(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                  const LayerPlan& plan, const TeethPose& from, LiftPart part, unsigned n) {
   const double out_m = plan.ground_z_m + kOutOfGround_share * plan.bucket_m - from.position_m.z();
   const bool folds = part == LiftPart::kFolds;
   const double up_m =
@@ -174,39 +195,30 @@ LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinem
                         : folds ? std::max({kFolded_rad, heel_free_rad, plan.carry_rad})
                                 : plan.carry_rad;
   const double turn_rad = to_rad - from.attitude_rad;
+  TeethPose to = from;
+  to.position_m.z() += kLiftUps[n / kLiftTurns.size() % kLiftUps.size()] * up_m;
+  to.attitude_rad += kLiftTurns[n % kLiftTurns.size()] * std::min(0.0, turn_rad);
+  return lift_along(profile, kinematics, from, to);
+}
+
+LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                   const LayerPlan& plan, const TeethPose& from, LiftPart part) {
   LinePlan lift;
-  for (const double up : kLiftUps) {
-    for (const double turn : kLiftTurns) {
-      TeethPose to = from;
-      to.position_m.z() += up * up_m;
-      to.attitude_rad += turn * std::min(0.0, turn_rad);
-      lift.line = line_between(kinematics, from, to);
-      if (is_reached(kinematics, lift.line)) {
-        lift.way_m = way_m(kinematics, lift.line);
-        lift.ramp =
-            ramp_for_speed(lift.way_m, kLiftSpeed_mps, kLiftShare * profile.line.acceleration_mps2);
-        return lift;
-      }
-    }
+  for (unsigned n = 0; n < kLiftTries && lift.way_m <= 0.0; ++n) {
+    lift = lift_try(profile, kinematics, plan, from, part, n);
   }
-  lift.line = {from, {}};
   return lift;
 }
 
-LinePlan free_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                   const LayerPlan& plan, const TeethPose& from, const TeethPose& entered) {
+LinePlan way_back(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                  const LayerPlan& plan, const TeethPose& from, const TeethPose& entered) {
   const Eigen::Vector3d off_m = entered.position_m - from.position_m;
   TeethPose to = entered;
   to.position_m.z() = from.position_m.z() + kLiftLeast_share * plan.bucket_m;
-  LinePlan lift;
-  lift.line = line_between(kinematics, from, to);
-  if (off_m.head<2>().norm() > kSlot_share * plan.bucket_m || !is_reached(kinematics, lift.line)) {
-    return lift_line(profile, kinematics, plan, from, LiftPart::kFrees);
+  if (off_m.head<2>().norm() > kSlot_share * plan.bucket_m) {
+    return {{from, {}}, {}, 0.0};
   }
-  lift.way_m = way_m(kinematics, lift.line);
-  lift.ramp =
-      ramp_for_speed(lift.way_m, kLiftSpeed_mps, kLiftShare * profile.line.acceleration_mps2);
-  return lift;
+  return lift_along(profile, kinematics, from, to);
 }
 
 namespace {

@@ -20,23 +20,26 @@ namespace graben {
 [[nodiscard]] TeethPose first_dig_pose(const SwingKinematics& kinematics,
                                        const TaskProgram& program);
 
-enum class LiftPart : std::uint8_t {
-  kFolds,  ///< The bucket is folded in,
-  kOut,    ///< and lifted out of the ground;
-  kFrees,  ///< or straight up first, where its heel stands on something.
-};
-
-/// The same of teeth that soil holds: straight up, or the way back that they have come into the
-/// ground, while they are still near it.
-[[nodiscard]] LinePlan free_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                                 const LayerPlan& plan, const TeethPose& from,
-                                 const TeethPose& entered);
+/// The way back that teeth which soil holds have come into the ground; without a way where they are
+/// not near it any more, or the machine can't take it.
+[[nodiscard]] LinePlan way_back(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                                const LayerPlan& plan, const TeethPose& from,
+                                const TeethPose& entered);
 
 /// The way of teeth that have ended a cut here: first the bucket is folded in while its edge still
 /// stands before soil, which keeps the fill in; then it is lifted out of the ground. Without a way
-/// where the machine can't lift it.
+/// where the machine can't lift it. Not in a cycle: there a lift tries one line each (lift_try()).
 [[nodiscard]] LinePlan lift_line(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
                                  const LayerPlan& plan, const TeethPose& from, LiftPart part);
+
+/// How many ways a lift tries, of less and less height, and less and less turned. [-; derived:
+/// kLiftUps, kLiftTurns]
+inline constexpr unsigned kLiftTries = 12;
+
+/// The `n`th of them, 0 .. kLiftTries - 1; without a way where the machine can't take it.
+[[nodiscard]] LinePlan lift_try(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
+                                const LayerPlan& plan, const TeethPose& from, LiftPart part,
+                                unsigned n);
 
 /// Teeth on a cut, so high over the line; the bucket stands steep as it goes into uncut ground,
 /// its floor along its way, and is turned to the line's attitude on the first half metre.
