@@ -17,8 +17,8 @@ constexpr TimeUs kSlow_us = 40 * kMillisecondUs;
 /// In the order of SourcePlace.
 const std::vector<std::string>& source_names() {
   static const std::vector<std::string> names = {
-      "stroke", "joint_angle", "cap_pressure", "rod_pressure", "spool",
-      "slope",  "swash",       "engine_speed", "condition",    "merit"};
+      "stroke", "joint_angle",  "cap_pressure", "rod_pressure", "spool",      "slope",
+      "swash",  "engine_speed", "condition",    "merit",        "speed_limit"};
   return names;
 }
 

@@ -22,6 +22,21 @@ namespace graben::plant {
   return value.state == dbc::RawState::kValid;
 }
 
+/// A people detector's frame.
+template <class Dbc>
+[[nodiscard]] typename Dbc::ExternalLimit external_limit(const ExternalWord& word) {
+  using Limit = typename Dbc::ExternalLimit;
+  constexpr auto kValid = dbc::RawState::kValid;
+  Limit limit;
+  limit.level = {static_cast<typename Limit::Level>(word.level), kValid};
+  limit.resume = {word.resumes ? Limit::Resume::kOn : Limit::Resume::kOff, kValid};
+  limit.reason = {Limit::Reason::kPerson, kValid};
+  limit.speed_share_ratio = valid(word.speed_ratio);
+  limit.deadline_s = valid(word.deadline_s);
+  limit.source = {word.source, kValid};
+  return limit;
+}
+
 /// A plant on its bus, of which a machine kind's node is made. `Dbc` is the kind's, with
 /// SpoolCommand, ValveState, EEC1 and MachineIdentity; `Plant` has advance(duration_us) and
 /// set_pilot_cut(on); `Faults` are NodeFaults and the kind's own. The bus port belongs to the
@@ -112,6 +127,9 @@ class MachineNode {
       faults_.set_silent(Dbc::EEC1::kId, (now / faults_.engine_speed_turns_us) % 2 == 1);
     }
     sender_.send_late(faults_.frames, now);
+    if (faults_.external && is_due<typename Dbc::ExternalLimit>(kExternalOffset)) {
+      send(external_limit<Dbc>(*faults_.external), now);
+    }
   }
   /// As EEC1 shows it.
   [[nodiscard]] dbc::Physical shown_engine_radps() {
@@ -167,6 +185,8 @@ class MachineNode {
   bool enabled_ = false;
 
  private:
+  static constexpr std::uint64_t kExternalOffset = 3;
+
   CanPort& port_;
   FrameSender sender_;
   std::uint32_t profile_hash_;

@@ -14,6 +14,7 @@
 #include "app/plant/random.hpp"
 #include "can_dbc/codec.hpp"
 #include "firmware/core/time.hpp"
+#include "firmware/signals/machine_signals.hpp"
 
 namespace graben::plant {
 
@@ -138,6 +139,8 @@ class FaultyReading {
 };
 
 struct NodeFaults {
+  /// Somebody outside limits the machine, on the same bus, from the first word on.
+  std::optional<ExternalWord> external;
   bool wrong_identity = false;  ///< The machine names another profile.
   double engine_ratio = 1.0;    ///< Of the engine's speed; 0: it stands.
   ReadingFault engine_speed;    ///< As EEC1 shows it, rad/s.

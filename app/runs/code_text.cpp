@@ -36,6 +36,8 @@ std::string owner_words(LimitOf of, unsigned index, const ActuatorNames& actuato
       return index == 0 ? ": left track" : ": right track";
     case LimitOf::kFence:
       return fmt::format("[{}]", index);
+    case LimitOf::kSource:
+      return fmt::format(": source {}", index);
   }
   return "";
 }

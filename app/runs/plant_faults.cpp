@@ -72,14 +72,32 @@ void add_pressure(const std::string& name, const Find& find, PlantFaultTable<Exc
   };
 }
 
+/// Source 1, whose word holds for 0.25 s.
+template <class Faults>
+void says(Faults& faults, ExternalLevel level, bool resumes, double share) {
+  faults.set_silent(dbc::excavator::ExternalLimit::kId, false);
+  faults.external = ExternalWord{level, resumes, 1, share, 0.25};
+}
+
 /// Those of every machine.
 template <class Faults>
 PlantFaultTable<Faults> common() {
-  return {{"engine:runs", [](Faults& faults, double value) { faults.engine_ratio = value; }},
-          {"engine-speed:frozen", [](Faults& faults, double) { faults.engine_speed.stuck = true; }},
-          {"engine-speed:by-turns", [](Faults& faults, double value) {
-             faults.engine_speed_turns_us = static_cast<TimeUs>(std::llround(value * 1e6));
-           }}};
+  return {
+      {"outside:free",
+       [](Faults& faults, double) { says(faults, ExternalLevel::kFree, false, 1.0); }},
+      {"outside:slow",
+       [](Faults& faults, double value) { says(faults, ExternalLevel::kSlow, false, value); }},
+      {"outside:stop",
+       [](Faults& faults, double) { says(faults, ExternalLevel::kStop, false, 0.0); }},
+      {"outside:pause",
+       [](Faults& faults, double) { says(faults, ExternalLevel::kStop, true, 0.0); }},
+      {"outside:silent",
+       [](Faults& faults, double) { faults.set_silent(dbc::excavator::ExternalLimit::kId, true); }},
+      {"engine:runs", [](Faults& faults, double value) { faults.engine_ratio = value; }},
+      {"engine-speed:frozen", [](Faults& faults, double) { faults.engine_speed.stuck = true; }},
+      {"engine-speed:by-turns", [](Faults& faults, double value) {
+         faults.engine_speed_turns_us = static_cast<TimeUs>(std::llround(value * 1e6));
+       }}};
 }
 
 /// The plugs of two strokes' sensors.

@@ -15,7 +15,7 @@ FMIS = {2: "erratic", 7: "not responding", 9: "abnormal update rate", 10: "abnor
 # What becomes of the pilot pressure.
 PILOT = {"stays": "-", "later": "cut 1 s later", "at once": "cut at once", "kept": "cut at once, kept",
          "by motion": "cut at once, kept after motion"}
-INDICES = ("", "pump", "drive", "fault", "track", "fence")
+INDICES = ("", "pump", "drive", "fault", "track", "fence", "source")
 _NAME = re.compile(r"[A-Z][A-Za-z0-9]*")
 
 

@@ -75,7 +75,7 @@ def texts(codes: Codes) -> str:
         + f"enum class PilotAfter {{ {', '.join(map(_pilot, PILOT))} }};\n\n"
         + "struct FaultText {\n  const char* text;\n  const char* help;  ///< What to do.\n"
         + "  PilotAfter pilot;\n};\n\n"
-        + "enum class LimitOf { kNothing, kPump, kDrive, kFault, kTrack, kFence };\n\n"
+        + "enum class LimitOf { kNothing, kPump, kDrive, kFault, kTrack, kFence, kSource };\n\n"
         + "struct LimitText {\n  const char* text;\n  LimitOf of;  ///< Whose number the limit's index is.\n};\n\n"
         + table("kFaultTexts", "FaultText", ['    {"none", "", PilotAfter::kStays},',
                 *(f'    {{"{fault.text}",\n     "{fault.help}", PilotAfter::{_pilot(fault.pilot)}}},'

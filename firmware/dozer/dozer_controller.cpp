@@ -36,7 +36,7 @@ DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
              is.last.mark, outputs.status);
   const bool active = decision.active();
   if (active) {
-    tell_motion(machine_, is.estimates.pass, motion, travel, valid.degraded, outputs.status);
+    tell_motion(machine_, is.estimates.pass, motion, travel, valid, outputs.status);
   }
   remember(machine_, valid, is.estimates, motion, travel, decision, outputs, cycle.period_s,
            is.last);

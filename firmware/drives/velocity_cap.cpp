@@ -28,7 +28,8 @@ constexpr std::array<Priority, kLimitKindCount> kPriorities = {{{LimitKind::kNon
                                                                 {LimitKind::kOffGrade, 2},
                                                                 {LimitKind::kSwingEnd, 1},
                                                                 {LimitKind::kFence, 1},
-                                                                {LimitKind::kOffPath, 2}}};
+                                                                {LimitKind::kOffPath, 2},
+                                                                {LimitKind::kExternalLimit, 0}}};
 
 constexpr bool rows_are_in_order() {
   for (std::size_t i = 0; i < kPriorities.size(); ++i) {

@@ -36,7 +36,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   check_mark(machine_, valid, is.estimates.pose, inputs.driver.mark_touch, now_us, cycle.elapsed_s,
              is.last.mark, outputs.status);
   if (decision.active()) {
-    tell_motion(machine_, is.inputs, motion, followed, valid.degraded, outputs.status);
+    tell_motion(machine_, is.inputs, motion, followed, valid, outputs.status);
   }
   remember(machine_, valid, is.inputs, motion, followed, decision, is.output, sent, outputs.enable,
            cycle.period_s, is.last);

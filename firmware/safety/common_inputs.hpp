@@ -11,6 +11,18 @@
 
 namespace graben {
 
+/// What somebody outside leaves of the speed, see external_limit.hpp.
+struct ExternalCap {
+  double speed_ratio = 1.0;  ///< Most share of the task's full speed.
+  bool holds = false;        ///< The operator would have it faster.
+  std::uint8_t source = 0;
+
+  [[nodiscard]] bool stops() const { return speed_ratio <= 0.0; }
+  [[nodiscard]] Limit limit() const {
+    return holds ? Limit{LimitKind::kExternalLimit, source} : Limit{};
+  }
+};
+
 /// Common to the inputs that may be used. With a fault, only `enable` and the faults themselves
 /// mean anything.
 struct CommonValid {
@@ -24,6 +36,7 @@ struct CommonValid {
   Task task = Task::kNone;
   int task_number = -1;  ///< Of Task::kProgram; below 0 none was given.
   double speed_override_ratio = 0.0;
+  ExternalCap external;  ///< Already in the speed.
   bool valve_enabled = false;
   double engine_radps = 0.0;  ///< The profile's idle where the measured one is lost.
   double idle_radps = 0.0;    ///< The profile's.

@@ -24,6 +24,14 @@ inline constexpr double kSlowAfter_s = 1.0;
 /// that toggles must not make the machine jerk; not tried]
 inline constexpr double kOverrideAfter_s = 0.2;
 
+// A limit from outside (external_limit.cpp)
+
+/// Longest time for which a word from outside holds. [s; derived: ExternalLimit.Deadline]
+inline constexpr double kExternalMostDeadline_s = 1.0;
+/// Rate at which the speed comes back once a limit is wider. [1/s; chosen: a machine that people
+/// are near to does not jump; not tried]
+inline constexpr double kExternalRise_ps = 1.0;
+
 // Time of a cycle (cycle.cpp)
 
 /// Longest period that a cycle reckons with. [s; chosen: a late cycle must not turn into one large

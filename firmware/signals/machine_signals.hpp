@@ -34,6 +34,18 @@ struct OperatorInputs {
   Signal<std::uint8_t> mark_touch;      ///< The tool is at the mark: the touch's number.
 };
 
+/// What somebody outside asks for; the numbers are on the bus.
+enum class ExternalLevel : std::uint8_t { kFree = 0, kSlow = 1, kStop = 2 };
+
+/// A people detector's or a site's word.
+struct ExternalWord {
+  ExternalLevel level = ExternalLevel::kStop;
+  bool resumes = false;      ///< After its stop the machine goes on by itself.
+  std::uint8_t source = 0;   ///< Who says so.
+  double speed_ratio = 0.0;  ///< While kSlow, most share of the task's full speed, 0 .. 1.
+  double deadline_s = 0.0;   ///< It holds for so long.
+};
+
 /// What the operator has confirmed for a drive in Task::kCommission.
 struct StrokeWindow {
   double least_m = 0.0;  ///< Strokes that it is to stay within.
@@ -67,6 +79,7 @@ struct MachineInputs {
   Signal<double> engine_speed_radps;
   Signal<bool> valve_enabled;  ///< The valve side's echo of our enable.
   OperatorInputs driver;
+  Signal<ExternalWord> external;
   Signal<bool> same_machine;  ///< The machine's end runs with our profile hash and DBC version.
   LinkInputs link;
 };

@@ -57,6 +57,9 @@ enum class SourcePlace : std::uint8_t {
   kEngineSpeed = 7,  ///< rad/s.
   kCondition = 8,    ///< The valve side acts on our enable only where all of these hold.
   kMerit = 9,        ///< Within its range the sender trusts what else is in its message.
+  /// Most share of full speed that somebody outside leaves; at 0 and below the machine stops until
+  /// the operator arms again.
+  kSpeedLimit = 10,
 };
 
 /// What has a slope. The links are counted as the axes.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal/buses/common_messages.hpp"
 
+#include <algorithm>
+
 namespace graben {
 namespace {
 
@@ -45,6 +47,12 @@ static_assert(same_code(BusTouch::kNotByHand, MarkTouch::kNotByHand));
 static_assert(same_code(BusTouch::kNotKnown, MarkTouch::kNotKnown));
 static_assert(same_code(bus::EcuChecks::kTouch.raw_max, MarkTouch::kNotKnown));
 
+using BusLevel = bus::ExternalLimit::Level;
+static_assert(same_code(BusLevel::kFree, ExternalLevel::kFree));
+static_assert(same_code(BusLevel::kSlow, ExternalLevel::kSlow));
+static_assert(same_code(BusLevel::kStop, ExternalLevel::kStop));
+static_assert(same_code(bus::ExternalLimit::kLevel.raw_max, ExternalLevel::kStop));
+
 // faults.toml and limits.toml are behind both sides of these.
 static_assert(bus::EcuStatus::kFault.raw_max == kFaultCount - 1);
 static_assert(bus::EcuStatus::kLimitKind.raw_max == kLimitKindCount - 1);
@@ -70,6 +78,21 @@ void store_operator(const bus::OperatorCommand& message, TimeUs now, OperatorInp
   put(to.task, message.task, now);
   put(to.speed_override_ratio, message.speed_override_ratio, now);
   put(to.task_number, message.task_number, now);
+}
+
+void store_external(const bus::ExternalLimit& message, TimeUs now, Signal<ExternalWord>& to) {
+  constexpr double kDeadline_s = 0.25;
+  const auto valid = [](const auto& signal) { return signal.state == dbc::RawState::kValid; };
+  to = {{}, validity_of(message.level.state), now};
+  to.value.level = static_cast<ExternalLevel>(message.level.value);
+  to.value.resumes =
+      valid(message.resume) && message.resume.value == bus::ExternalLimit::Resume::kOn;
+  to.value.source = static_cast<std::uint8_t>(message.source.value);
+  to.value.speed_ratio = message.speed_share_ratio.value;
+  to.value.deadline_s = valid(message.deadline_s) ? message.deadline_s.value : kDeadline_s;
+  if (to.value.level == ExternalLevel::kSlow && !valid(message.speed_share_ratio)) {
+    to.validity = std::min(to.validity, validity_of(message.speed_share_ratio.state));
+  }
 }
 
 void store_identity(const bus::MachineIdentity& message, TimeUs now, PartnerIdentity& to) {

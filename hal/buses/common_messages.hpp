@@ -16,10 +16,13 @@ constexpr bool same_code(Bus bus_code, Own own_code) {
 }
 
 /// Those that a controller receives.
-using CommonReceived = dbc::MessageList<dbc::common::EEC1, dbc::common::OperatorCommand,
-                                        dbc::common::TouchedPoint, dbc::common::MachineIdentity>;
+using CommonReceived =
+    dbc::MessageList<dbc::common::EEC1, dbc::common::OperatorCommand, dbc::common::TouchedPoint,
+                     dbc::common::ExternalLimit, dbc::common::MachineIdentity>;
 
 void store_operator(const dbc::common::OperatorCommand& message, TimeUs now, OperatorInputs& to);
+void store_external(const dbc::common::ExternalLimit& message, TimeUs now,
+                    Signal<ExternalWord>& to);
 void store_identity(const dbc::common::MachineIdentity& message, TimeUs now, PartnerIdentity& to);
 
 /// Base of a kind's Store; a kind adds `store` of its own messages. `own` are its tasks: an
@@ -50,6 +53,9 @@ struct CommonStore {
   }
   static void store(const dbc::common::TouchedPoint& message, TimeUs now, To& to) {
     put(to.inputs.driver.mark_touch, message.number, now);
+  }
+  static void store(const dbc::common::ExternalLimit& message, TimeUs now, To& to) {
+    store_external(message, now, to.inputs.external);
   }
   static void store(const dbc::common::MachineIdentity& message, TimeUs now, To& to) {
     store_identity(message, now, to.identity);

@@ -16,7 +16,7 @@ namespace graben {
 /// refused like one whose value is out of range.
 struct ExcavatorReception {
   using Inputs = ExcavatorInputs;
-  static constexpr int kMessageCount = 19;
+  static constexpr int kMessageCount = 20;
   [[nodiscard]] static const ReceiveTable<Inputs, kMessageCount>& table();
 };
 

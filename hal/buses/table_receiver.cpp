@@ -89,6 +89,9 @@ TableReceiver::TableReceiver(const BusTable* table)
     : table_(table), links_(rules_of(table), BusParts{}), nodes_(table) {}
 
 Signal<double>* TableReceiver::kept(const TableSource& source, ExcavatorInputs& to) {
+  if (source.place == SourcePlace::kSpeedLimit) {
+    return &limit_ratio_;
+  }
   return source.place == SourcePlace::kSlope ? &slopes_.link[source.index] : place_of(source, to);
 }
 
@@ -270,6 +273,20 @@ void TableReceiver::judge_conditions(ExcavatorInputs& to) const {
   }
 }
 
+/// Its own time-out is what the table has: here the word holds for as long as any may.
+void TableReceiver::tell_limit(ExcavatorInputs& to) const {
+  if (limit_ratio_.validity == Validity::kNotReceived) {
+    return;
+  }
+  const double ratio = limit_ratio_.value;
+  to.external = {{}, limit_ratio_.validity, limit_ratio_.stamp_us};
+  to.external.value.level = ratio >= 1.0  ? ExternalLevel::kFree
+                            : ratio > 0.0 ? ExternalLevel::kSlow
+                                          : ExternalLevel::kStop;
+  to.external.value.speed_ratio = ratio;
+  to.external.value.deadline_s = 1.0;
+}
+
 void TableReceiver::finish_known(TimeUs now, ExcavatorInputs& to) {
   dbc::Payload payload{};
   for (int index = links_.take_newest(payload); index != MessageLinks::kNoMessage;
@@ -296,6 +313,7 @@ void TableReceiver::finish_known(TimeUs now, ExcavatorInputs& to) {
     slopes_.to_joints(table_->has_body_slope, to);
   }
   judge_conditions(to);
+  tell_limit(to);
   if (slow && to.valve_enabled.validity == Validity::kValid) {
     to.valve_enabled.stamp_us = now;
   }

@@ -18,6 +18,8 @@
 /// A message that is silent for longer than its own time-out is 'not available'. What comes slower
 /// than the core asks of a signal counts as fresh up to there: the table's time-out is then the one
 /// that holds.
+///
+/// A limit from outside takes the place of our own ExternalLimit: a machine has one of the two.
 
 #include <array>
 #include <cstdint>
@@ -93,12 +95,14 @@ class TableReceiver {
   void mark(std::size_t message, Validity validity, ExcavatorInputs& to);
   void keep_fresh(std::size_t message, TimeUs now, ExcavatorInputs& to);
   void judge_conditions(ExcavatorInputs& to) const;
+  void tell_limit(ExcavatorInputs& to) const;
 
   const BusTable* table_;
   MessageLinks links_;
   std::array<Heard, kMostTableReceived> heard_{};
   std::array<Shown, kMostTableSources> shown_{};
   LinkSlopes slopes_;
+  Signal<double> limit_ratio_;  ///< As of kSpeedLimit.
   CanopenNodes nodes_;
   std::uint32_t wrong_counter_ = 0;
   std::uint32_t early_ = 0;

@@ -94,9 +94,9 @@ def main():
         profile = tomllib.load(stream)
     with open(profile_path.replace(".toml", ".sim.toml"), "rb") as stream:
         length = tomllib.load(stream)["experiment"]["length"]
-    # Its blade does not tilt, its track does not curve, and no mark is touched.
+    # Its blade does not tilt, its track does not curve, no mark is touched, nobody limits it.
     messages = {number: m for number, m in read_dbc(dbc).items()
-                if m["name"] not in ("TiltState", "BodyCourse", "TouchedPoint")}
+                if m["name"] not in ("TiltState", "BodyCourse", "TouchedPoint", "ExternalLimit")}
     with tempfile.TemporaryDirectory() as folder:
         summary_path = os.path.join(folder, "summary.json")
         subprocess.run([graben, "grade", "--out", folder, "--summary", summary_path], check=True,

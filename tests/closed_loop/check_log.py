@@ -78,8 +78,8 @@ def read_log(path, messages):
 SWING = ("SwingState", "SwingValveState", "SwingCommand")
 
 
-# Of an operator's station whose hands move the machine: no run of a task has them.
-HANDS = ("TouchedPoint", "OperatorAxes", "CommissionDuty", "CommissionWindow")
+# Of an operator's station whose hands move the machine, and of who limits it from outside: no run of a task has them.
+HANDS = ("ExternalLimit", "TouchedPoint", "OperatorAxes", "CommissionDuty", "CommissionWindow")
 
 # Of second sensors, which a shipped machine has only where it is told so.
 SECOND = ("SecondStrokes", "SecondSwing")

@@ -87,6 +87,8 @@ template <class Kind>
 [[nodiscard]] Rows<Kind> guard_rows();  ///< 67 - 73
 template <class Kind>
 [[nodiscard]] Rows<Kind> link_rows();  ///< 53, 56
+template <class Kind>
+[[nodiscard]] Rows<Kind> external_rows();  ///< 91 - 93
 /// Those that each kind has in its own way, or not at all: 5, 37 - 40, 49.
 [[nodiscard]] Rows<Excavator> excavator_rows();
 [[nodiscard]] Rows<Excavator> pressure_rows();                   ///< 65

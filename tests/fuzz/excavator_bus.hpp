@@ -28,7 +28,8 @@ struct ExcavatorBus : ecu::ExcavatorKind {
     return id == Dbc::SwingState::kId || id == Dbc::SwingValveState::kId ||
            id == Dbc::OperatorAxes::kId || id == Dbc::CommissionDuty::kId ||
            id == Dbc::CommissionWindow::kId || id == Dbc::SecondStrokes::kId ||
-           id == Dbc::SecondSwing::kId || id == Dbc::TouchedPoint::kId;
+           id == Dbc::SecondSwing::kId || id == Dbc::TouchedPoint::kId ||
+           id == Dbc::ExternalLimit::kId;
   }
   /// Whether its values may be not available.
   [[nodiscard]] static bool may_miss(std::uint32_t id) {

@@ -21,6 +21,7 @@ double slowest_period_s(const Messages& messages) {
     if (std::string(message.sender) != "Graben" && message.cycle_time_ms < kIdentity_ms &&
         message.id != dbc::excavator::CommissionWindow::kId &&
         message.id != dbc::excavator::TouchedPoint::kId &&
+        message.id != dbc::excavator::ExternalLimit::kId &&
         std::string(message.sender) != "SecondSensors") {
       most_ms = std::max<int>(most_ms, message.cycle_time_ms);
     }

@@ -5,6 +5,7 @@
 
 #include "firmware/dozer/stage.hpp"
 #include "firmware/safety/cycle.hpp"
+#include "firmware/safety/external_limit.hpp"
 #include "firmware/safety/task_change.hpp"
 
 namespace graben {
@@ -14,6 +15,7 @@ struct DozerInputState {
   DozerValidationState validation;
   DozerWatchState watch;
   TaskChangeState change;
+  ExternalState external;
 };
 
 /// Signals validated and watched against what the last cycle commanded, and the task as it may be

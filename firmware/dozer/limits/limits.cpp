@@ -69,7 +69,12 @@ Travel flow_limited(const DozerModel& machine, const DozerValid& valid,
   }
   travel.speed = choose_speed(machine, valid, estimates, preview, motion,
                               travel.steering.curvature_pm, period_s, state.speed);
-  const double speed_mps = travel.speed.state.speed_mps;
+  double& speed_mps = travel.speed.state.speed_mps;
+  if (valid.external.speed_ratio < 1.0) {
+    // At once, whatever acceleration is comfortable.
+    const double most_mps = valid.external.speed_ratio * profile.travel.speed_desired_mps;
+    speed_mps = std::clamp(speed_mps, -most_mps, most_mps);
+  }
   travel.track_mps = {speed_mps, speed_mps};
   if (design.curves()) {
     travel.track_mps = steered_mps(profile.body, speed_mps,

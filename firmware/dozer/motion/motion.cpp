@@ -74,6 +74,15 @@ void move_tilt(const DozerModel& machine, const DozerValid& valid, const NowAndT
   }
 }
 
+/// Somebody outside stops: the blade too.
+void stand(BladeMotion& motion) {
+  motion.blade.velocity_mps = 0.0;
+  motion.tilt.velocity_mps = 0.0;
+  motion.opening = {};
+  motion.asked_mps = {};
+  motion.required_flow_m3ps = 0.0;
+}
+
 }  // namespace
 
 double lift_most_m(const DozerProfile& profile) {
@@ -95,6 +104,9 @@ BladeMotion wanted_motion(const DozerModel& machine, const DozerValid& valid,
   move_lift(machine, at, period_s, last, estimates.design, state.blade, motion);
   if (profile.tilt.present) {
     move_tilt(machine, valid, at, estimates, period_s, last, state.tilt, motion);
+  }
+  if (valid.external.stops()) {
+    stand(motion);
   }
   return motion;
 }

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/dozer/outputs/outputs.hpp"
 
+#include <algorithm>
+
 namespace graben {
 namespace {
+
+/// A limit from outside counts at once: the lead of a speed that falls so fast must not turn a
+/// track round, and one that is to stand has no displacement.
+double held_ratio(double track_mps, double pump_ratio) {
+  const double along = track_mps < 0.0 ? -1.0 : 1.0;
+  return track_mps == 0.0 ? 0.0 : along * std::max(0.0, along * pump_ratio);
+}
 
 /// Blade and tracks a cycle on, before the gate.
 DozerCommand commanded(const DozerProfile& profile, const DozerValid& valid,
@@ -15,7 +24,9 @@ DozerCommand commanded(const DozerProfile& profile, const DozerValid& valid,
         control_track(profile, state[i], travel.track_mps[i],
                       believed_track_mps(profile.hst, valid, i), valid.engine_radps, period_s);
     state[i] = track.state;
-    command.pump_ratio[i] = track.displacements.pump_ratio;
+    command.pump_ratio[i] = valid.external.speed_ratio < 1.0
+                                ? held_ratio(travel.track_mps[i], track.displacements.pump_ratio)
+                                : track.displacements.pump_ratio;
     command.motor_ratio[i] = track.displacements.motor_ratio;
   }
   return command;

@@ -55,14 +55,15 @@ void check_mark(const DozerModel& machine, const DozerValid& valid, const DozerE
 }
 
 void tell_motion(const DozerModel& machine, const PassState& pass, const BladeMotion& motion,
-                 const Travel& travel, const FaultSet& degraded, DozerStatus& status) {
+                 const Travel& travel, const CommonValid& valid, DozerStatus& status) {
   const SpeedChoice& speed = travel.speed;
   status.lambda =
       std::clamp(speed.state.speed_mps / machine.profile.travel.speed_desired_mps, 0.0, 1.0);
   const Limit at_end = motion.blade.at_end ? machine.drives[kBladeLift].control.at_end : Limit{};
   const Limit tilt_at_end =
       motion.tilt.at_end ? machine.drives[kBladeTilt].control.at_end : Limit{};
-  status.limit = held_by({at_end, tilt_at_end, speed.limit, degraded_limit(degraded)});
+  status.limit = held_by(
+      {valid.external.limit(), at_end, tilt_at_end, speed.limit, degraded_limit(valid.degraded)});
   status.wanted_speed_mps = speed.state.speed_mps;
   status.speed_limit_mps = speed.allowed_mps;
   status.wanted_blade_mps = motion.blade.velocity_mps;

@@ -13,7 +13,7 @@ void check_mark(const DozerModel& machine, const DozerValid& valid, const DozerE
 
 /// What is told of a motion that is followed.
 void tell_motion(const DozerModel& machine, const PassState& pass, const BladeMotion& motion,
-                 const Travel& travel, const FaultSet& degraded, DozerStatus& status);
+                 const Travel& travel, const CommonValid& valid, DozerStatus& status);
 
 /// What the next cycle has to know of this one.
 void remember(const DozerModel& machine, const DozerValid& valid, const DozerEstimates& estimates,

@@ -115,6 +115,8 @@ ExcavatorValid read_inputs(const ExcavatorModel& machine, int program_count,
   tell_stall(last.stall, machine.profile.safety.stall_s, valid);
   tell_tube(last.tube, valid);
   tell_mark(machine.profile.mark, last.mark, last.commands.moving, valid);
+  tell_external(inputs.external, last.commands.moving, now_us, cycle.period_s, state.external,
+                valid);
   const DriveVector travel_m = valid.strokes_m();
   const TaskChoice task = task_after_change(
       state.change, {valid.task, valid.task_number}, last.commands.moving,

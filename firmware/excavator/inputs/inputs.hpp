@@ -10,6 +10,7 @@
 #include "firmware/excavator/safety/excavator_validation.hpp"
 #include "firmware/excavator/stage.hpp"
 #include "firmware/safety/cycle.hpp"
+#include "firmware/safety/external_limit.hpp"
 #include "firmware/safety/task_change.hpp"
 
 namespace graben {
@@ -24,6 +25,7 @@ struct InputState {
   ExcavatorWatchState watch;
   TaskChangeState change;
   LeverWatch levers;
+  ExternalState external;
   std::array<CommissionState, kDriveCount> commission;
   std::array<double, kDriveCount> tried_ratio{};  ///< Duties of this cycle that may be sent.
 };

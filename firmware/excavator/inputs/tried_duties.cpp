@@ -16,8 +16,10 @@ void guard_tried_duties(DriveRows drives, const Cycle& cycle, const LastCommands
     }
     return;
   }
-  // What is lost or wrong could not be told from what the drives do.
-  const bool may = tries && valid.degraded.empty() && valid.speed_override_ratio > 0.0;
+  // What is lost or wrong could not be told from what the drives do, and a duty is no speed that
+  // somebody outside could limit.
+  const bool may = tries && valid.degraded.empty() && valid.speed_override_ratio > 0.0 &&
+                   valid.external.speed_ratio >= 1.0;
   const auto& sent = last.duty_ratio;
   const auto driven = kDriveCount - std::count(sent.begin(), sent.end(), 0.0);
   FaultSet stops;

@@ -79,6 +79,9 @@ void hold_back(const ExcavatorModel& machine, const ExcavatorValid& valid, const
       motion.cap.limit = motion.hand.cap.limit;
     }
   }
+  if (valid.external.stops()) {
+    motion.cap.factor = 0.0;
+  }
   park_spools(machine, valid, estimates, period_s, last, motion, state);
 }
 

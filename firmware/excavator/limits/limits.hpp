@@ -36,8 +36,9 @@ struct Followed {
                                    const ExcavatorValid& valid, const EstimationState& estimates);
 
 /// Slows `motion` before ends and fences, beyond a fence to what leads back; asks no more of a
-/// drive that its load holds than path or plan want; lets boom and arm stand where their
-/// corrections would reverse them for little. Not inlined, for the stack below the solver.
+/// drive that its load holds than path or plan want; holds all where somebody outside stops; lets
+/// boom and arm stand where their corrections would reverse them for little. Not inlined, for the
+/// stack below the solver.
 [[gnu::noinline]] void hold_back(const ExcavatorModel& machine, const ExcavatorValid& valid,
                                  const InputState& inputs, const EstimationState& estimates,
                                  double period_s, const LastCycle& last, Motion& motion,

@@ -14,7 +14,7 @@ double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
 }
 
 HandAsk hand_ask(const ExcavatorValid& valid) {
-  return {valid.task, valid.lever_ratio, valid.speed_override_ratio};
+  return {valid.task, valid.lever_ratio, valid.speed_override_ratio, valid.external.speed_ratio};
 }
 
 /// The program that is being followed and goes on to be asked for; null without one.

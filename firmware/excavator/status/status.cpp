@@ -60,7 +60,7 @@ void check_mark(const ExcavatorModel& machine, const ExcavatorValid& valid,
 }
 
 void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const Motion& motion,
-                 const Followed& followed, const FaultSet& degraded, ExcavatorStatus& status) {
+                 const Followed& followed, const CommonValid& valid, ExcavatorStatus& status) {
   const McvSolution& solution = followed.solution;
   const bool waits = motion.task.pace_ratio < kPlanWaitsPace;
   const bool rises =
@@ -68,12 +68,13 @@ void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const 
   status.lambda =
       motion.tries ? 1.0 : motion.cap.factor * motion.hand.cap.factor * followed.of_way();
   status.limit =
-      held_by({blocked_limit(inputs.watch.drives.blocked),
+      held_by({valid.external.limit(),
+               blocked_limit(inputs.watch.drives.blocked),
                solution.limit,
                motion.tries ? tried_limit(machine.drives, inputs.commission) : motion.cap.limit,
                {waits ? LimitKind::kOffPath : LimitKind::kNone, 0},
                {rises ? LimitKind::kRise : LimitKind::kNone, 0},
-               degraded_limit(degraded)});
+               degraded_limit(valid.degraded)});
   status.path_error_m = motion.path_error_m;
   std::copy_n(motion.wanted_mps.data(), kDriveCount, status.wanted_velocity_mps.begin());
   status.swings = machine.profile.has_swing();

@@ -17,7 +17,7 @@ void check_mark(const ExcavatorModel& machine, const ExcavatorValid& valid,
 
 /// What is told of a motion that is followed.
 void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const Motion& motion,
-                 const Followed& followed, const FaultSet& degraded, ExcavatorStatus& status);
+                 const Followed& followed, const CommonValid& valid, ExcavatorStatus& status);
 
 /// What the next cycle has to know of this one.
 void remember(const ExcavatorModel& machine, const ExcavatorValid& valid, const InputState& inputs,

@@ -181,10 +181,10 @@ void check_saturation_and_refusal(const Scales& scales) {
         assert_int_equal(sent(message, field), error);
       }
       // Nearest, not truncated.
-      signal.value = (low + 100.4) * scale.factor + scale.offset;
-      assert_int_equal(sent(message, field), low + 100U);
-      signal.value = (low + 100.6) * scale.factor + scale.offset;
-      assert_int_equal(sent(message, field), low + 101U);
+      signal.value = (low + 40.4) * scale.factor + scale.offset;
+      assert_int_equal(sent(message, field), low + 40U);
+      signal.value = (low + 40.6) * scale.factor + scale.offset;
+      assert_int_equal(sent(message, field), low + 41U);
     }
   });
 }

@@ -17,7 +17,7 @@ static_assert(!std::is_same_v<bus::LiftCommand, graben::dbc::excavator::SpoolCom
 
 TEST(own_messages_have_what_follows_from_their_lines) {
   assert_int_equal(bus::kDbcVersion, 1);
-  assert_int_equal(bus::kMessages.size(), 2 + 9);
+  assert_int_equal(bus::kMessages.size(), 2 + 10);
   assert_int_equal(bus::LiftState::kId, 0x0CFF5080);
   assert_true(bus::LiftState::kProtected);
   assert_int_equal(bus::LiftState::kDataId, 0xFF50);

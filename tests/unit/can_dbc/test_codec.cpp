@@ -65,9 +65,12 @@ constexpr Scale kScales[] = {
     {"OffAcross", 2e-3, -0.25, -0.25, 0.25},
     {"OffUp", 2e-3, -0.25, -0.25, 0.25},
     {"Tolerance", 2e-3, 0.0, 0.0, 0.5},
+    {"SpeedShare", 5e-3, 0.0, 0.0, 1.0},
+    {"Distance", 10e-3, 0.0, 0.0, 642.55},
+    {"Deadline", 10e-3, 0.0, 0.1, 1.0},
 };
 
-TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 112); }
+TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 119); }
 
 TEST(saturates_and_refuses) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

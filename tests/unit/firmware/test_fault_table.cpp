@@ -76,6 +76,9 @@ const Promise kPromises[] = {
     {53, Fault::kMarkDue, 'W', 31, ArmBlock::kMark},
     // An engine that stands though its speed says that it runs.
     {54, Fault::kEngineDoubtful, 'N', 2, ArmBlock::kEngineStopped},
+    // Somebody outside.
+    {56, Fault::kExternalStop, 'N', 31, ArmBlock::kExternal},
+    {57, Fault::kExternalSilent, 'N', 9, ArmBlock::kExternal},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},

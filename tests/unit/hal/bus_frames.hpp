@@ -76,13 +76,15 @@ struct ExcavatorBus {
   using Stroke = dbc::excavator::BoomStroke;
   using SpoolCommand = dbc::excavator::SpoolCommand;
   using OperatorCommand = dbc::excavator::OperatorCommand;
-  using Protected = List<
-      dbc::excavator::BoomStroke, dbc::excavator::ArmStroke, dbc::excavator::BucketStroke,
-      dbc::excavator::BoomPressure, dbc::excavator::ArmPressure, dbc::excavator::BucketPressure,
-      dbc::excavator::PumpState, dbc::excavator::OperatorCommand, dbc::excavator::ValveState,
-      dbc::excavator::SwingState, dbc::excavator::SwingValveState, dbc::excavator::OperatorAxes,
-      dbc::excavator::CommissionDuty, dbc::excavator::CommissionWindow,
-      dbc::excavator::SecondStrokes, dbc::excavator::SecondSwing, dbc::excavator::TouchedPoint>;
+  using Protected =
+      List<dbc::excavator::BoomStroke, dbc::excavator::ArmStroke, dbc::excavator::BucketStroke,
+           dbc::excavator::BoomPressure, dbc::excavator::ArmPressure,
+           dbc::excavator::BucketPressure, dbc::excavator::PumpState,
+           dbc::excavator::OperatorCommand, dbc::excavator::ValveState, dbc::excavator::SwingState,
+           dbc::excavator::SwingValveState, dbc::excavator::OperatorAxes,
+           dbc::excavator::CommissionDuty, dbc::excavator::CommissionWindow,
+           dbc::excavator::SecondStrokes, dbc::excavator::SecondSwing, dbc::excavator::TouchedPoint,
+           dbc::excavator::ExternalLimit>;
   using Unprotected = List<dbc::excavator::EEC1, dbc::excavator::MachineIdentity>;
   using Other = List<dbc::excavator::ArmStroke, dbc::excavator::ValveState,
                      dbc::excavator::SpoolCommand, dbc::excavator::PumpCommand>;
@@ -102,7 +104,7 @@ struct DozerBus {
       List<dbc::dozer::BladeStroke, dbc::dozer::BodyPosition, dbc::dozer::BodyPitch,
            dbc::dozer::BodyVelocity, dbc::dozer::LeftTransmission, dbc::dozer::RightTransmission,
            dbc::dozer::TrackSpeed, dbc::dozer::TiltState, dbc::dozer::BodyCourse, DozerCommand,
-           dbc::dozer::ValveState, dbc::dozer::TouchedPoint>;
+           dbc::dozer::ValveState, dbc::dozer::TouchedPoint, dbc::dozer::ExternalLimit>;
   using Unprotected = List<dbc::dozer::EEC1, dbc::dozer::MachineIdentity>;
   using Other = List<dbc::dozer::BodyPitch, dbc::dozer::ValveState, dbc::dozer::SpoolCommand,
                      dbc::dozer::MotorDisplacementCommand>;

@@ -157,6 +157,56 @@ TEST(a_window_of_no_drive_is_nobodys, ExcavatorFeed feed) {
   }
 }
 
+/// In another maker's frame, a percentage every 100 ms; 255 is none.
+TEST(a_speed_limit_comes_in_anybodys_frame) {
+  constexpr std::uint32_t kLimit = 0x18FF7DE8;
+  constexpr TimeUs kTablePeriod = 10 * kMillisecondUs;
+  BusTable other;
+  other.message_count = 1;
+  other.rule[0].id = kLimit;
+  other.rule[0].length = 8;
+  other.message[0].period_us = 10 * kTablePeriod;
+  other.message[0].timeout_us = 35 * kTablePeriod;
+  other.message[0].slow = true;
+  other.message[0].count = 1;
+  other.source_count = 1;
+  other.source[0] = {
+      {8, 8, false, false}, SourcePlace::kSpeedLimit, 0, false, 0.01, 0.0, 0.0, 1.0, 0.0, -1, 255};
+  ExcavatorReceiver receiver{with_table({}, &other)};
+  TimeUs now = kFirstFrameUs;
+  const Signal<ExternalWord>& heard = receiver.inputs().external;
+  const auto says = [&](int raw) {
+    now += 10 * kTablePeriod;
+    CanFrame frame;
+    frame.id = kLimit;
+    frame.length = 8;
+    put_raw({8, 8, false, false}, raw, frame.data);
+    receiver.accept(frame, now);
+    receiver.finish(now);
+  };
+  receiver.finish(now);
+  assert_int_equal(heard.validity, Validity::kNotReceived);
+  const struct {
+    int raw;
+    ExternalLevel level;
+  } cases[] = {{100, ExternalLevel::kFree}, {30, ExternalLevel::kSlow}, {0, ExternalLevel::kStop}};
+  for (const auto& each : cases) {
+    says(each.raw);
+    assert_int_equal(heard.validity, Validity::kValid);
+    assert_int_equal(heard.value.level, each.level);
+    assert_near(heard.value.speed_ratio, 0.01 * each.raw, 1e-12);
+    assert_false(heard.value.resumes);
+    assert_int_equal(heard.stamp_us, now);
+  }
+  says(255);
+  assert_int_equal(heard.validity, Validity::kNotAvailable);
+  says(30);
+  receiver.finish(now + 35 * kTablePeriod);
+  assert_int_equal(heard.validity, Validity::kValid);
+  receiver.finish(now + 36 * kTablePeriod);
+  assert_int_equal(heard.validity, Validity::kNotAvailable);
+}
+
 TEST(one_signal_is_lost_the_other_stays) {
   ExcavatorReceiver receiver;
   const AxisInputs& boom = receiver.inputs().axis[0];

@@ -219,7 +219,7 @@ TEST_FOR_EACH(out_of_range_is_refused_as_a_whole, Bus, ExcavatorBus, DozerBus) {
   };
   for_each(typename Bus::Protected{}, test);
   for_each(typename Bus::Unprotected{}, test);
-  assert_in_range(fields, 15, 44);
+  assert_in_range(fields, 15, 50);
 }
 
 TEST_FOR_EACH(sender_says_error_or_not_available, Bus, ExcavatorBus, DozerBus) {
@@ -235,6 +235,59 @@ TEST_FOR_EACH(sender_says_error_or_not_available, Bus, ExcavatorBus, DozerBus) {
   assert_int_equal(receiver.inputs().driver.enable.validity, Validity::kNotAvailable);
   assert_int_equal(receiver.inputs().driver.mode.validity, Validity::kValid);
   assert_int_equal(rejected(receiver.total()), 0);
+}
+
+/// Who limits the machine from outside: what is not valid of what decides is no word.
+TEST_FOR_EACH(a_limit_from_outside, Bus, ExcavatorBus, DozerBus) {
+  using Limit = dbc::common::ExternalLimit;
+  const struct {
+    const dbc::Field* field;
+    std::uint32_t raw;
+    Validity validity;
+    ExternalLevel level;
+  } cases[] = {{&Limit::kLevel, 0, Validity::kValid, ExternalLevel::kFree},
+               {&Limit::kLevel, 1, Validity::kValid, ExternalLevel::kSlow},
+               {&Limit::kLevel, 2, Validity::kValid, ExternalLevel::kStop},
+               {&Limit::kLevel, 14, Validity::kError, ExternalLevel::kFree},
+               {&Limit::kLevel, 15, Validity::kNotAvailable, ExternalLevel::kFree},
+               {&Limit::kSpeedShare, 254, Validity::kError, ExternalLevel::kSlow},
+               {&Limit::kSpeedShare, 255, Validity::kNotAvailable, ExternalLevel::kSlow}};
+  for (const auto& each : cases) {
+    Feed<typename Bus::Receiver> feed;
+    Limit limit;
+    limit.level = {Limit::Level::kSlow, dbc::RawState::kValid};
+    limit.resume = {Limit::Resume::kOn, dbc::RawState::kValid};
+    limit.speed_share_ratio = {0.3, dbc::RawState::kValid};
+    limit.source = {7, dbc::RawState::kValid};
+    dbc::Payload payload = limit.encode();
+    dbc::insert(payload, each.field->start_bit, each.field->width, each.raw);
+    const TimeUs now = feed.send(Limit::decode(payload));
+    const Signal<ExternalWord>& heard = feed.receiver.inputs().external;
+    assert_int_equal(heard.validity, each.validity);
+    assert_int_equal(heard.stamp_us, now);
+    assert_int_equal(heard.value.level, each.level);
+    assert_true(heard.value.resumes);
+    assert_int_equal(heard.value.source, 7);
+    assert_near(heard.value.deadline_s, 0.25, 1e-12);
+  }
+}
+
+/// What is not said: it holds for 0.25 s, it does not go on by itself, its source is 0. A share
+/// counts only where it slows.
+TEST_FOR_EACH(what_a_limit_does_not_say, Bus, ExcavatorBus, DozerBus) {
+  using Limit = dbc::common::ExternalLimit;
+  Feed<typename Bus::Receiver> feed;
+  Limit limit;
+  limit.level = {Limit::Level::kStop, dbc::RawState::kValid};
+  limit.resume = {Limit::Resume::kOn, dbc::RawState::kError};
+  limit.speed_share_ratio.state = dbc::RawState::kNotAvailable;
+  limit.deadline_s.state = dbc::RawState::kNotAvailable;
+  feed.send(limit);
+  const Signal<ExternalWord>& heard = feed.receiver.inputs().external;
+  assert_int_equal(heard.validity, Validity::kValid);
+  assert_false(heard.value.resumes);
+  assert_int_equal(heard.value.source, 0);
+  assert_near(heard.value.deadline_s, 0.25, 0.0);
 }
 
 TEST_FOR_EACH(operator_and_identity, Bus, ExcavatorBus, DozerBus) {

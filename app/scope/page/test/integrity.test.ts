@@ -33,7 +33,7 @@ test('a log of the controller is right in every frame of every message', () => {
   }
   assert.ok(guarded > 3000);
   for (const state of messageStates(store, store.until_s)) {
-    const of_other_tasks = /^(Swing|Second|OperatorAxes|Commission|TouchedPoint)/;
+    const of_other_tasks = /^(Swing|Second|OperatorAxes|Commission|TouchedPoint|ExternalLimit)/;
     const expected = of_other_tasks.test(state.message.name)
       ? 'silent' : state.message.data_id > 0 ? 'ok' : 'unprotected';
     assert.equal(state.integrity, expected, state.message.name);

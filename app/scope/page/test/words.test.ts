@@ -20,6 +20,7 @@ test('limits as the reports word them', () => {
   assert.equal(limit_words(8, 1, {...CONTEXT, kind: 'dozer'}), 'transmission flow: right track');
   assert.equal(limit_words(4, 0, {...CONTEXT, kind: 'dozer'}), 'stroke end: blade');
   const task = {fences: [{words: 'wall'}]} as never;
+  assert.equal(limit_words(14, 7, CONTEXT), 'a limit from outside: source 7');
   assert.equal(limit_words(12, 0, {...CONTEXT, task}), 'fence: wall');
 });
 

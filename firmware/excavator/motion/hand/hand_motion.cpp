@@ -55,6 +55,21 @@ HandSpeed softened(const HandRange& range, Task task, const HandSpeed& target, H
   return last + change;
 }
 
+/// One factor on all, so that the direction stays.
+void hold_outside(const HandRange& range, const HandAsk& ask, HandSpeed& speed) {
+  if (ask.most_ratio >= 1.0) {
+    return;
+  }
+  VelocityCap cap;
+  if (ask.task == Task::kCoordinated) {
+    cap.tighten(speed.head<2>().norm(), ask.most_ratio * range.most[kUp], {});
+  }
+  for (int i = 0; i < kDriveCount; ++i) {
+    cap.tighten(std::abs(speed[i]), ask.most_ratio * range.most[i], {});
+  }
+  speed *= cap.factor;
+}
+
 HandSpeed target_of(const HandRange& range, const HandAsk& ask, bool released) {
   HandSpeed levers = HandSpeed::Zero();
   if (released) {
@@ -163,6 +178,7 @@ HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
   HandWant want;
   want.speed =
       softened(range, ask.task, target_of(range, ask, state.released), state.speed, period_s);
+  hold_outside(range, ask, want.speed);
   if (!profile.has_swing()) {
     want.speed = with_swing(want.speed, 0.0);
   }

@@ -31,6 +31,7 @@ struct HandAsk {
   Task task = Task::kNone;
   std::array<double, kDriveCount> lever_ratio{};
   double speed_override_ratio = 0.0;
+  double most_ratio = 1.0;  ///< That somebody outside leaves; it counts at once.
 };
 
 /// Wanted motion of the drives now.

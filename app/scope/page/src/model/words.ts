@@ -67,6 +67,7 @@ function owners({kind, words, task}: LimitContext):
     drive: {what: 'drive', words: (at) => DRIVES[kind][at] ?? `drive ${at}`},
     fault: {what: 'fault', words: (at) => fault_words(words, at)},
     track: {what: 'track', words: track},
+    source: {what: 'source', words: (at) => `source ${at}`},
     fence: {what: 'number', words: (at) => task?.fences[at]?.words ?? `number ${at}`},
   };
 }
