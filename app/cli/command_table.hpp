@@ -74,7 +74,8 @@ inline constexpr CommandRow kCommands[] = {
      "tenths of a second for each picture"},
     {"faults", "machine",
      "Faults that a controller has stored: how often, when first and last, power cycles since, and "
-     "what the machine did as each came, from the folder of graben-ecu's --store, or a copy of it; or, "
+     "what the machine did as each came, from the folder of graben-ecu's --store, or a copy of it; "
+     "or, "
      "over CAN, which are active and which are stored, and their records are cleared"},
     {"new-machine", "machine",
      "Asks for a machine's measures in mm, degrees, bar, rpm and L/min, a line each on standard "

@@ -74,9 +74,9 @@ enum class AutodigEnd { kDone, kNotFinished, kFault };
 
 struct AutodigResult {
   AutodigEnd end = AutodigEnd::kDone;
-  Fault fault = Fault::kNone;  ///< With kFault.
+  Fault fault = Fault::kNone;            ///< With kFault.
   std::vector<std::string> faults_left;  ///< Of those that were told, as they were; not reached.
-  int missed = 0;              ///< See TaskProgress, at the run's end.
+  int missed = 0;                        ///< See TaskProgress, at the run's end.
   std::vector<AutodigSample> samples;
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;

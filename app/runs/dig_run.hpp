@@ -74,9 +74,9 @@ enum class DigEnd { kDone, kPathNotReached, kLoopNotClosed, kFault };
 
 struct DigResult {
   DigEnd end = DigEnd::kDone;
-  Fault fault = Fault::kNone;  ///< With kFault.
+  Fault fault = Fault::kNone;            ///< With kFault.
   std::vector<std::string> faults_left;  ///< Of those that were told, as they were; not reached.
-  NodeEmergency emergency;     ///< That stood then.
+  NodeEmergency emergency;               ///< That stood then.
   std::vector<DigSample> samples;
   double wall_s = 0.0;
   std::uint32_t rejected_frames = 0;

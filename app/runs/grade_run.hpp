@@ -66,7 +66,7 @@ enum class GradeEnd { kDone, kNotFinished, kFault };
 
 struct GradeResult {
   GradeEnd end = GradeEnd::kDone;
-  Fault fault = Fault::kNone;  ///< With kFault.
+  Fault fault = Fault::kNone;            ///< With kFault.
   std::vector<std::string> faults_left;  ///< Of those that were told, as they were; not reached.
   std::vector<GradeSample> samples;
   std::vector<Eigen::Vector2d> terrain_m;  ///< As it was left, x and z.
