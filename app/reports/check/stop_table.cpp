@@ -34,7 +34,8 @@ FactTable stop_table(const std::vector<runs::Stopping>& stops) {
       "Stop from outside",
       {"motion", "bucket", "of full speed", "m/s", "s until it stands", "m"},
       {},
-      "simulated, as designed; from when the source decides, its frame's 50 ms in it; "
+      "simulated, as designed; a swing 1 s after its lever was put over, which is not yet its full "
+      "speed; from when the source decides, its frame's 50 ms in it; "
       "the farthest that teeth, or a dozer's body, come from where they were then. What "
       "a detector needs before it decides comes on top"};
   for (const runs::Stopping& stop : stops) {
