@@ -74,6 +74,20 @@ void check_base(const ProfileDocument& document, const std::filesystem::path& ba
   }
 }
 
+/// Sections that only the other kind has, where it has none of its own: two hundred keys would be
+/// called missing.
+void refuse_other_sections(const ProfileDocument& document, TomlReader& reader, MachineKind kind) {
+  const toml::table& root = document.root;
+  const bool digs = root.contains("boom") && root.contains("arm");
+  const bool grades = root.contains("blade") && root.contains("hst");
+  const bool is_other = kind == MachineKind::kDozer ? digs && !grades : grades && !digs;
+  if (is_other) {
+    reader.fail("kind", fmt::format("\"{}\", and the file has {}; is it \"{}\"?", kind_name(kind),
+                                    digs ? "[boom] and [arm]" : "[blade] and [hst]",
+                                    digs ? "excavator" : "dozer"));
+  }
+}
+
 MachineKind read_kind(const ProfileDocument& document, TomlReader& reader) {
   const auto kind = static_cast<MachineKind>(reader.choice("kind", kind_names(), kKindHelp));
   throw_errors(document, reader);
@@ -227,6 +241,8 @@ void require_kind(const ProfileDocument& document, TomlReader& reader, MachineKi
         fmt::format("a machine of kind {}; here it must be {}{}", kind_name(found), kind_name(kind),
                     found == MachineKind::kDozer ? " (a dozer works by graben grade)"
                                                  : " (an excavator digs by graben dig)"));
+  } else {
+    refuse_other_sections(document, reader, kind);
   }
   throw_errors(document, reader);
 }
