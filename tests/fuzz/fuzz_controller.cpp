@@ -118,6 +118,8 @@ std::string recover(ExcavatorController& controller, bool has_swing, TimeUs now_
     const EcuMode mode = told.status.mode;
     const bool in_motion = mode == EcuMode::kArmed || mode == EcuMode::kActive;
     inputs.driver.enable.value = in_motion || mode == EcuMode::kReady;
+    // Who has once said a word from outside has to be there.
+    inputs.external = fresh(ExternalWord{ExternalLevel::kFree, false, 0, 1.0, 1.0}, now_us);
     inputs.driver.task.value = in_motion ? Task::kDig : Task::kNone;
     told = controller.step(inputs, now_us);
     if (std::string wrong = wire.after(told, now_us); !wrong.empty()) {
@@ -153,7 +155,8 @@ std::string check_run(const ExcavatorProfile& profile, RawRun run) {
   for (RawCycle& cycle : run.cycle) {
     for (bool* value : {&cycle.inputs.driver.enable.value, &cycle.inputs.same_machine.value,
                         &cycle.inputs.valve_enabled.value, &cycle.inputs.link.out_of_range,
-                        &cycle.inputs.link.stop_requested, &cycle.inputs.link.cannot_answer}) {
+                        &cycle.inputs.link.stop_requested, &cycle.inputs.link.cannot_answer,
+                        &cycle.inputs.external.value.resumes}) {
       make_bool(*value);
     }
     stopped = stopped || cycle.inputs.link.stop_requested;

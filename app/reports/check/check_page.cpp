@@ -163,10 +163,10 @@ h2 { margin: 0 0 8px; font-size: 15px; }
 .left { text-align: left; }
 .warnings h2:only-child, .warnings.none h2 { margin: 0; }
 .facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(470px, 100%), 1fr)); gap: 14px; }
-section { padding: 14px 16px; min-width: 0; }
+section { padding: 14px 16px; min-width: 0; overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { text-align: right; padding: 4px 8px; border-bottom: 1px solid var(--line); vertical-align: bottom; }
-th, td { overflow-wrap: anywhere; } td:first-child { overflow-wrap: normal; }
+td { white-space: nowrap; } td.left { white-space: normal; }
 th { font-weight: 500; color: var(--soft); font-size: 13px; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
 section p { margin: 8px 0 0; color: var(--soft); font-size: 13px; }
