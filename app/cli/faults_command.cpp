@@ -276,14 +276,14 @@ void add_faults(CLI::App& app, int& status) {
                           "faults --store /var/lib/graben-ecu --json", "faults --can can0",
                           "faults --can can0 --clear previous"});
   command->callback([options, &status] {
+    if (options->store.empty() && options->bus.interface.empty()) {
+      throw CLI::RequiredError("--store or --can");
+    }
     status = guarded("faults", [&] {
       if (!options->bus.interface.empty()) {
         options->bus.json = options->json;
         faults_on_bus(options->bus);
         return;
-      }
-      if (options->store.empty()) {
-        throw std::runtime_error("--store or --can is wanted");
       }
       const ecu::StoredFaults found = read_store(options->store);
       if (options->json) {

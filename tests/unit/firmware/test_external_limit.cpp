@@ -213,3 +213,13 @@ TEST(what_stopped_first_stays_the_first, Limited limited) {
   assert_int_equal(valid.fault, Fault::kStrokeMissing);
   assert_true(valid.faults.has(Fault::kExternalStop));
 }
+
+/// What is no word names nobody: the source is who gave the last one.
+TEST(an_error_names_no_other_source, Limited limited) {
+  static_cast<void>(limited.slowed_to(0.5));
+  limited.said.source = kSource + 1;
+  static_cast<void>(limited.hears(Validity::kError));
+  assert_int_equal(limited.state.source, kSource);
+  static_cast<void>(limited.hears());
+  assert_int_equal(limited.state.source, kSource + 1);
+}

@@ -69,7 +69,7 @@ test('special values as the controller takes them', () => {
   const mode = loadDatabase('excavator').signal('EcuStatus.Mode');
   assert.deepEqual([5, 6, 7].map((raw) => mode.state(raw)), ['valid', 'error', 'notAvailable']);
   const limit = loadDatabase('excavator').signal('EcuStatus.LimitKind');
-  assert.deepEqual([13, 14, 29, 30, 31].map((raw) => limit.state(raw)),
+  assert.deepEqual([14, 15, 29, 30, 31].map((raw) => limit.state(raw)),
     ['valid', 'error', 'error', 'error', 'notAvailable']);
   const lamp = loadDatabase('excavator').signal('DM1.RedStopLamp');
   assert.deepEqual([0, 1, 2, 3].map((raw) => lamp.state(raw)),
