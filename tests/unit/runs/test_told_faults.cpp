@@ -29,6 +29,7 @@ std::string refusal(const std::string& text) {
 TEST(what_came_of_the_told_faults_is_said) {
   assert_true(told_faults_text({}, {}, 10.0, false).empty());
   assert_true(told_faults_text({"a@1"}, {}, 10.0, true).empty());
+  assert_true(told_faults_text({"outside:slow=0.3@1"}, {}, 10.0, false).empty());
   assert_true(graben::test::has(told_faults_text({"a@1", "b@2"}, {}, 10.0, false),
                                 "a@1, b@2: the controller did not see it"));
   assert_true(graben::test::has(
