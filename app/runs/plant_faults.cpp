@@ -299,6 +299,20 @@ PlantFaultSchedule<Faults>::PlantFaultSchedule(const PlantFaultTable<Faults>& ta
   std::stable_sort(left_.begin(), left_.end(), [](const Planned& a, const Planned& b) {
     return a.fault.at_us < b.fault.at_us;
   });
+  bool has_source = false;
+  for (const Planned& planned : left_) {
+    const ToldFault& fault = planned.fault;
+    if (fault.name == "outside:slow" && !(fault.value > 0.0 && fault.value < 1.0)) {
+      throw std::runtime_error(fmt::format(
+          "--fault {}: allowed: a share of full speed, above 0 and below 1", planned.text));
+    }
+    // Silence of a source that never was there is none.
+    if (fault.name == "outside:silent" && !has_source) {
+      throw std::runtime_error(fmt::format(
+          "--fault {}: no source was there before; outside:free@1 makes one", planned.text));
+    }
+    has_source = has_source || fault.name.rfind("outside:", 0) == 0;
+  }
 }
 
 template <class Faults>

@@ -26,7 +26,8 @@ inline constexpr double kStands_mps = 0.02;
 /// Shares of full speed that are tried.
 inline constexpr double kStopSpeeds[] = {1.0, 0.6, 0.3, 0.1};
 
-/// A stop that the operator has to end, decided just after a frame of ExternalLimit has gone out:
+/// A stop that the operator has to end, decided where the motion is fastest (found by a run without
+/// one, of 12 s) and just after a frame of ExternalLimit has gone out:
 /// its period is in the figures, whatever a detector needs before it is not. An excavator with a
 /// swing drive swings by its lever; every one follows its digging path. Both with the bucket empty,
 /// and full of loose soil where the profile says what it holds.

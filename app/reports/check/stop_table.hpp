@@ -12,8 +12,8 @@ namespace graben::reports {
 
 [[nodiscard]] FactTable stop_table(const std::vector<runs::Stopping>& stops);
 
-/// One for each motion and load that at full speed goes on for more than `within_m`, with the speed
-/// that it had to have instead.
+/// One for each motion and load that at any of its speeds goes on for more than `within_m`, with
+/// the speed up to which it does not.
 [[nodiscard]] std::vector<Warning> stop_warnings(const std::vector<runs::Stopping>& stops,
                                                  double within_m);
 

@@ -3,6 +3,8 @@
 // simulation beside the profile; shipped profiles are not warned of.
 
 #include <unistd.h>
+#include <algorithm>
+#include <cstring>
 
 #include <filesystem>
 #include <fstream>
@@ -14,6 +16,7 @@
 #include "app/machines/any_machine.hpp"
 #include "app/machines/simulated/simulation_file.hpp"
 #include "app/reports/check/machine_check.hpp"
+#include "app/reports/check/stop_table.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 namespace fs = std::filesystem;
@@ -219,4 +222,33 @@ TEST(a_simulation_of_another_machine_is_said) {
   fs::remove_all(folder());
   assert_int_equal(said.size(), 1);
   assert_non_null(strstr(said.front().c_str(), "bucket.length: 1.3 m, where the machine that is"));
+}
+
+/// The longest way decides, at whichever speed it is, each load by itself.
+TEST(a_limit_that_comes_too_late_is_warned_of) {
+  const std::vector<runs::Stopping> stops = {{"swing", 1.0, 0.0, 4.0, 1.0, 1.4},
+                                             {"swing", 0.6, 0.0, 4.6, 1.0, 2.0},
+                                             {"swing", 0.3, 0.0, 2.0, 1.0, 0.5},
+                                             {"swing", 1.0, 800.0, 4.3, 1.0, 2.5},
+                                             {"swing", 0.3, 800.0, 2.4, 1.0, 0.9}};
+  assert_int_equal(reports::stop_warnings(stops, 2.6).size(), 0);
+  assert_int_equal(reports::stop_warnings(stops, 2.1).size(), 1);
+  const std::vector<reports::Warning> late = reports::stop_warnings(stops, 1.5);
+  assert_int_equal(late.size(), 2);
+  assert_non_null(std::strstr(late[0].text.c_str(), "swing at 60 % of its speed, empty"));
+  assert_non_null(std::strstr(late[0].text.c_str(), "unless it was slowed to 30 % before"));
+  assert_non_null(std::strstr(reports::stop_warnings(stops, 0.8)[1].text.c_str(), "however slow"));
+}
+
+/// Stopped where it is fastest: a swing's second of acceleration is not its speed.
+TEST(a_swing_is_stopped_where_it_is_fastest) {
+  const auto machine = machines::load_simulated_excavator(machines::find_profile("excavator_12t"));
+  double most_mps = 0.0;
+  double most_m = 0.0;
+  for (const runs::Stopping& stop : runs::stopping(machine)) {
+    most_mps = std::max(most_mps, stop.motion == "swing" ? stop.speed_mps : 0.0);
+    most_m = std::max(most_m, stop.distance_m);
+  }
+  assert_true(most_mps > 4.0);
+  assert_true(most_m > 2.0);
 }

@@ -60,6 +60,9 @@ TEST(wrong_texts_are_refused) {
                {"boom-stroke:step=@1", "'' is no number"},
                {"boom-stroke:step=1mm@1", "'1mm' is no number"},
                {"boom-stroke:frzen@1", "did you mean 'boom-stroke:frozen'?"},
+               {"outside:slow@1", "above 0 and below 1"},
+               {"outside:slow=1.5@1", "above 0 and below 1"},
+               {"outside:silent@1", "no source was there before"},
                {"blade-stroke:frozen@1", "known: "}};
   for (const auto& tried : cases) {
     assert_non_null(std::strstr(refusal(tried.text).c_str(), tried.says));
