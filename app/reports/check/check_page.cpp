@@ -124,7 +124,10 @@ std::string table_text(const FactTable& table) {
 std::string table_html(const FactTable& table) {
   std::string html = fmt::format("<section><h2>{}</h2>\n", escaped(table.title));
   if (!table.rows.empty()) {
-    html += "<table>\n<tr>";
+    // A table wider than a small screen is moved by the arrow keys too: it takes the focus.
+    html += fmt::format(
+        "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>\n<tr>",
+        escaped(table.title));
     for (const std::string& column : table.columns) {
       // A cell that heads nothing is none of a header's.
       html += column.empty() ? "<td></td>" : "<th scope=\"col\">" + escaped(column) + "</th>";
@@ -137,7 +140,7 @@ std::string table_html(const FactTable& table) {
       }
       html += "</tr>\n";
     }
-    html += "</table>\n";
+    html += "</table></div>\n";
   }
   return html + (table.note.empty() ? "" : "<p>" + escaped(table.note) + "</p>\n") + "</section>\n";
 }
@@ -163,7 +166,7 @@ h2 { margin: 0 0 8px; font-size: 15px; }
 .left { text-align: left; }
 .warnings h2:only-child, .warnings.none h2 { margin: 0; }
 .facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(470px, 100%), 1fr)); gap: 14px; }
-section { padding: 14px 16px; min-width: 0; overflow-x: auto; }
+section { padding: 14px 16px; min-width: 0; } .wide { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { text-align: right; padding: 4px 8px; border-bottom: 1px solid var(--line); vertical-align: bottom; }
 td { white-space: nowrap; } td.left { white-space: normal; }
@@ -192,7 +195,7 @@ code { font: 13px ui-monospace, monospace; background: var(--code); padding: 1px
   main { padding: 16px 10px 32px; } section { padding: 10px; }
   table { font-size: 12px; } th { font-size: 11px; } th, td { padding: 3px 4px; }
 }
-@media print { body { background: #fff; } main { padding: 0; } section, .sheet { break-inside: avoid; } }
+@media print { body { background: #fff; } .wide { overflow: visible; } main { padding: 0; } section, .sheet { break-inside: avoid; } }
 )";
 
 }  // namespace
