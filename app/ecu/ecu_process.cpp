@@ -13,6 +13,9 @@
 #include <type_traits>
 #include <variant>
 
+#include "app/ecu/address_name.hpp"
+#include "app/ecu/address_note.hpp"
+#include "app/ecu/address_port.hpp"
 #include "app/ecu/diagnostic_port.hpp"
 #include "app/ecu/emergency_note.hpp"
 #include "app/ecu/end_signals.hpp"
@@ -37,6 +40,7 @@ constexpr int kNeutralCycles = 5;
 constexpr int kFailed = 1;
 /// The profile, or a task.
 constexpr int kWrongFile = 2;
+constexpr const char* kMachineId = "/etc/machine-id";
 /// The manager wants to hear from us within an interval; three times in it is on the safe side.
 constexpr TimeUs kWatchdogShare = 3;
 
@@ -157,14 +161,18 @@ std::uint32_t small(std::uint64_t count) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, UINT32_MAX));
 }
 
-/// What a workshop asks for beside control, and what is stored for it.
+/// What others on the bus ask for beside control, and what is stored for it.
 class Workshop {
  public:
-  Workshop(DiagnosticPort& port, ProcessStore* store)
-      : port_(port), recorder_(store == nullptr ? nullptr : &store->rings()) {
+  Workshop(AddressPort& address, DiagnosticPort& port, ProcessStore* store)
+      : address_(address), port_(port), recorder_(store == nullptr ? nullptr : &store->rings()) {
     if (store != nullptr) {
       recorder_.begin(store->found());
     }
+  }
+  void begin(TimeUs now_us) {
+    address_.begin(now_us);
+    port_.begin(now_us);
   }
   template <class Ecu>
   void cycle_done(const Ecu& ecu, TimeUs now_us) {
@@ -173,16 +181,18 @@ class Workshop {
     const FaultSet cleared =
         port_.finish({status.faults, status.mode, recorder_.stored(), recorder_.can_forget()});
     recorder_.forget(cleared, now_us);
+    address_.finish();
   }
 
  private:
+  AddressPort& address_;
   DiagnosticPort& port_;
   FaultRecorder recorder_;
 };
 
 template <class Ecu>
 void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
-                         EmergencyNote& note, DiagnosticPort& port, Workshop& workshop,
+                         EmergencyNote& note, AddressNote& address, Workshop& workshop,
                          bool real_time) {
   for (int neutral_cycles = 0; neutral_cycles < kNeutralCycles;) {
     const CyclicClock::Cycle cycle = clock.wait();
@@ -192,11 +202,12 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
     }
     ecu.set_process_health(
         {small(mark.allocations()), small(mark.faults()), small(clock.overruns()), real_time});
-    port.begin(cycle.now_us);
+    workshop.begin(cycle.now_us);
     ecu.step(cycle.now_us, cycle.last_us);
     workshop.cycle_done(ecu, cycle.now_us);
     watchdog.cycle_done(cycle.now_us);
     note.look(ecu.emergency());
+    address.look();
     if (!mark.is_set()) {
       mark.set();
     }
@@ -223,7 +234,9 @@ std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup, const Bu
   for (const std::uint32_t pgn : {j1939::kRequestPgn, j1939::kConnectionPgn}) {
     ids.push_back(j1939::id_of(0, pgn, kOwnAddress, kAnyTool));
   }
-  ids.push_back(j1939::id_of(0, j1939::kRequestPgn, j1939::kGlobalAddress, kAnyTool));
+  for (const std::uint32_t pgn : {j1939::kRequestPgn, j1939::kAddressClaimedPgn}) {
+    ids.push_back(j1939::id_of(0, pgn, j1939::kGlobalAddress, kAnyTool));
+  }
   for (const std::uint32_t id : table_ids(table)) {
     if (id != 0) {
       ids.push_back(id);
@@ -255,7 +268,9 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   LastFrames last;
   const auto own_ids = Kind::Transmitter::ids();
   j1939::Diagnostics diagnostics(kOwnAddress, own_ids.data(), own_ids.size());
-  DiagnosticPort port(buses.group, diagnostics);
+  j1939::AddressClaim claim(kOwnAddress, options.name ? *options.name : found_name(kMachineId));
+  AddressPort address(buses.group, claim);
+  DiagnosticPort port(address, diagnostics);
   EcuNode<Kind> ecu(setup, profile_hash, port, &table);
   CyclicClock clock(kPeriod_us);
   ServiceNotify manager(std::getenv("NOTIFY_SOCKET"));
@@ -265,6 +280,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   auto store = open_store<Kind>(options.store, profile_hash);
   const EndSignals signals(last, buses.ports);
   demand(signals.error(), "");
+  claim_address(address);
   if (options.cpu) {
     demand(pin_to_cpu(*options.cpu), "");
   }
@@ -279,15 +295,18 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   const char* const status = options.real_time ? "cycling" : "cycling WITHOUT real time";
   manager.status(status);
   EmergencyNote note(manager, status);
+  AddressNote address_note(manager, claim);
 
-  Workshop workshop(port, store.get());
-  cycle_until_stopped(ecu, clock, watchdog, mark, note, port, workshop, options.real_time);
+  Workshop workshop(address, port, store.get());
+  cycle_until_stopped(ecu, clock, watchdog, mark, note, address_note, workshop, options.real_time);
 
   manager.stopping();
   if (note.count() > 0) {
     std::fprintf(stderr, "graben-ecu: %s\n", note.words().c_str());
   }
   usage.emergencies = note.count();
+  usage.address_lost = claim.is_lost();
+  usage.claims_defended = claim.defended();
   usage.last_emergency = note.last();
   usage.allocations = mark.allocations();
   usage.allocations_counted = allocations_are_counted();

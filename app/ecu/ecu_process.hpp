@@ -21,9 +21,10 @@ namespace graben::ecu {
 struct EcuOptions {
   std::vector<std::string> interfaces;  ///< CAN interfaces by name; all are heard, all are sent to.
   std::string profile;
-  std::vector<std::string> tasks;  ///< Files or names, in the order of their numbers, from 0.
-  std::string stats_file;          ///< Written on the way out; none if empty.
-  std::string store;               ///< Folder; $STATE_DIRECTORY if empty; none without that.
+  std::vector<std::string> tasks;     ///< Files or names, in the order of their numbers, from 0.
+  std::string stats_file;             ///< Written on the way out; none if empty.
+  std::optional<std::uint64_t> name;  ///< NAME on J1939; without it found_name().
+  std::string store;                  ///< Folder; $STATE_DIRECTORY if empty; none without that.
   bool real_time = true;
   int priority = 80;  ///< SCHED_FIFO.
   std::optional<int> cpu;
@@ -37,6 +38,8 @@ struct Usage {
   bool real_time = false;
   std::uint32_t emergencies = 0;  ///< Of nodes of CANopen, as they came and changed.
   NodeEmergency last_emergency;
+  bool address_lost = false;          ///< Another station has our address (J1939-81).
+  std::uint32_t claims_defended = 0;  ///< Claims of it by others that it was kept from.
   StoreCounters store;
   TimeUs start_us = 0;  ///< From the process's begin to its first frame.
 };

@@ -40,6 +40,8 @@ void print(std::FILE* to, const CyclicClock& clock, const LinkCounters& link,
   count(to, "emergencies", usage.emergencies);
   count(to, "emergency_node", usage.last_emergency.id);
   count(to, "emergency_code", usage.last_emergency.code);
+  count(to, "address_lost", usage.address_lost ? 1 : 0);
+  count(to, "claims_defended", usage.claims_defended);
   count(to, "store", usage.store.is_there ? 1 : 0);
   count(to, "store_failed", usage.store.failed ? 1 : 0);
   count(to, "store_writes", usage.store.writes);

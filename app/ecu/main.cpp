@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/ecu/address_name.hpp"
 #include "app/ecu/ecu_process.hpp"
 #include "firmware/excavator/motion/program/task_program.hpp"
 #include "platform/linux/process.hpp"
@@ -53,6 +54,10 @@ std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& s
       ->check(CLI::Range(0, 1023));
   app.add_option("--stats", options.stats_file,
                  "Write cycle times, wake-up latencies and counters to this file at the end");
+  std::string name;
+  app.add_option("--name", name,
+                 "NAME on J1939, 16 hexadecimal digits: the lower one keeps an address that two "
+                 "claim. Unless told: industry group 3 and an identity from /etc/machine-id");
   app.add_option("--store", options.store,
                  "Folder for what outlives the power: stored faults and their freeze frames, at "
                  "most 1472 writes of 4 KiB in a day; $STATE_DIRECTORY unless told, which the "
@@ -75,6 +80,15 @@ std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& s
     std::fputs("graben-ecu: --can: an interface is named twice\n", stderr);
     status = kWrongUsage;
     return std::nullopt;
+  }
+  if (!name.empty()) {
+    std::string error;
+    options.name = parse_name(name, error);
+    if (!options.name) {
+      std::fprintf(stderr, "graben-ecu: --name: %s\n", error.c_str());
+      status = kWrongUsage;
+      return std::nullopt;
+    }
   }
   options.real_time = !no_real_time;
   return options;

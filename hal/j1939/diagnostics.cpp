@@ -79,6 +79,9 @@ void Diagnostics::hear(const CanFrame& frame, TimeUs now) {
   const Request request = {frame.data[0] | static_cast<std::uint32_t>(frame.data[1]) << 8U |
                                static_cast<std::uint32_t>(frame.data[2]) << 16U,
                            from.sender, from.receiver == kGlobalAddress, now};
+  if (request.pgn == kAddressClaimedPgn) {
+    return;  // answered by AddressClaim
+  }
   for (std::size_t i = 0; i < requests_; ++i) {
     if (request_[i].pgn == request.pgn && request_[i].sender == request.sender &&
         request_[i].to_all == request.to_all) {

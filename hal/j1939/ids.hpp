@@ -12,6 +12,7 @@ inline constexpr std::uint32_t kConnectionPgn = 0xEC00;      ///< 60416, TP.CM
 inline constexpr std::uint32_t kDataTransferPgn = 0xEB00;    ///< 60160, TP.DT
 inline constexpr std::uint32_t kActiveCodesPgn = 0xFECA;     ///< 65226, DM1
 inline constexpr std::uint32_t kPreviousCodesPgn = 0xFECB;   ///< 65227, DM2
+inline constexpr std::uint32_t kAddressClaimedPgn = 0xEE00;  ///< 60928
 inline constexpr std::uint32_t kClearPreviousPgn = 0xFECC;   ///< 65228, DM3
 inline constexpr std::uint32_t kClearActivePgn = 0xFED3;     ///< 65235, DM11
 

@@ -116,6 +116,33 @@ def check_tool(out: pathlib.Path) -> list[str]:
     return problems
 
 
+def check_claim(out: pathlib.Path) -> list[str]:
+    """Who has address 130: said 250 ms before all else, kept five times a second, and lost for good."""
+    log = bus_log.frames(out / "vcan1.log")
+    ours = bytes.fromhex("0500000000FF0030")
+    claims = [frame.time for frame in log if frame.name == "18EEFF82" and frame.data == ours]
+    rivals = [frame.time for frame in log if frame.name == "18EEFF82" and frame.data != ours]
+    first = min((frame.time for frame in log if frame.name[-2:] == "82" and not frame.name.startswith("18EEFF")), default=0.0)
+    problems = []
+    if not claims or not 0.245 <= first - claims[0] <= 1.0:
+        problems.append(f"claimed {first - claims[0] if claims else 0.0:.3f} s before the first frame")
+    storm = [time for time in claims if rivals[1] + 0.5 < time < rivals[1] + 1.5]
+    if not 4 <= len(storm) <= 6:
+        problems.append(f"{len(storm)} claims in a second of a storm")
+    # It was given both, 130 first.
+    if not any(frame.name == "18EEFF81" and frame.data == bytes.fromhex("AA00000000000080") for frame in log):
+        problems.append("j1939acd has not taken address 129")
+    lost = rivals[-1]
+    later = [frame for frame in log if frame.time > lost + 0.02 and frame.name[-2:] in ("82", "FE")]
+    if [(frame.name, frame.data) for frame in later] != [("18EEFFFE", ours)] or later[0].time > lost + 0.18:
+        problems.append(f"after the loss: {[(frame.name, frame.data.hex()) for frame in later][:8]}")
+    stats, wrong = stats_file.read(out / "stats_claim")
+    if (stats["address_lost"], int(stats["claims_defended"]) >= 2000) != ("1", True) or wrong:
+        problems.append(f"stats_claim: lost {stats['address_lost']}, defended {stats['claims_defended']}, {wrong}")
+    print(f"workshop: {len(claims)} claims against {len(rivals)}, lost after {lost - claims[0]:.1f} s")
+    return problems
+
+
 def stored(folder: pathlib.Path) -> dict[int, int]:
     """Fault -> occurrences, of the newest copy."""
     newest, payload = -1, b""
@@ -131,7 +158,7 @@ def stored(folder: pathlib.Path) -> dict[int, int]:
 
 
 def check(out: pathlib.Path) -> list[str]:
-    problems = check_bus(bus_log.frames(out / "vcan0.log")) + check_others(out) + check_tool(out)
+    problems = check_bus(bus_log.frames(out / "vcan0.log")) + check_others(out) + check_tool(out) + check_claim(out)
     before, after = stored(out / "before"), stored(out / "after")
     if set(before) != MISSING or set(before.values()) != {1} or after:
         problems.append(f"stored: {before}, after DM11 {after}")
@@ -145,6 +172,7 @@ def check(out: pathlib.Path) -> list[str]:
             problems.append(f"{name}: store, store_failed, store_dropped {said} instead of {wanted}")
     lines = (out / "ecu.err").read_text().splitlines()
     begins = ["store /store: new, nothing was there; power cycle 1,", "store /store: read; power cycle 1,",
+              "SILENT: address 130 is claimed by another station, NAME 3000ff0000000004, lower than ours,",
               "store /full/store: new, nothing was there;", "store: /full/store/faults.a: No space left on device;"]
     if len(lines) != len(begins) or not all(f"graben-ecu: {begin}" in line for begin, line in zip(begins, lines)):
         problems.append(f"said: {lines}")
@@ -152,4 +180,4 @@ def check(out: pathlib.Path) -> list[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(run_programs.main("workshop.sh", check, timeout_s=90.0, modules=("can_j1939",), tools=("j1939cat",)))
+    sys.exit(run_programs.main("workshop.sh", check, timeout_s=90.0, modules=("can_j1939",), tools=("j1939cat", "j1939acd")))

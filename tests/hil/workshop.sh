@@ -38,6 +38,24 @@ STATE_DIRECTORY=/store ecu_start vcan0 excavator_22t.toml --stats "$OUT/stats_ag
 sleep 2
 ecu_stop
 
+# Its address (J1939-81): j1939acd of the kernel's people asks who has 130, and takes 129; a storm of claims of higher
+# names changes nothing; a lower one has it.
+vcan_up vcan1
+record vcan1
+ecu_start vcan1 excavator_22t.toml --stats "$OUT/stats_claim" --name 3000ff0000000005
+j1939acd -r 130,129 -c /tmp/claimed 80000000000000aa vcan1 2>/dev/null &
+daemon=$!
+sleep 2
+kill -TERM "$daemon"
+wait "$daemon"
+cangen vcan1 -g 1 -n 2000 -I 18EEFF82 -e -L 8 -D FFFFFFFFFFFFFFFF
+sleep 0.3
+cansend vcan1 18EAFFF9#00EE00
+sleep 0.3
+cansend vcan1 18EEFF82#0400000000FF0030
+sleep 1
+ecu_stop
+
 mkdir /full
 mount -t tmpfs -o size=8k tmpfs /full || fail 'no small disk'
 dd if=/dev/zero of=/full/rest bs=4096 count=2 2>/dev/null
