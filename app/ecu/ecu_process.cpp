@@ -20,6 +20,7 @@
 #include "app/ecu/emergency_note.hpp"
 #include "app/ecu/end_signals.hpp"
 #include "app/ecu/kinds.hpp"
+#include "app/ecu/store/frozen_fault.hpp"
 #include "app/ecu/store/process_store.hpp"
 #include "app/machines/any_machine.hpp"
 #include "app/machines/task_file.hpp"
@@ -178,8 +179,8 @@ class Workshop {
   void cycle_done(const Ecu& ecu, TimeUs now_us) {
     const MachineStatus& status = ecu.outputs().status;
     recorder_.look(sample_of(ecu.inputs(), ecu.outputs(), now_us), status.faults);
-    const FaultSet cleared =
-        port_.finish({status.faults, status.mode, recorder_.stored(), recorder_.can_forget()});
+    const FaultSet cleared = port_.finish({status.faults, status.mode, recorder_.stored(),
+                                           frozen_of(recorder_.last()), recorder_.can_forget()});
     recorder_.forget(cleared, now_us);
     address_.finish();
   }

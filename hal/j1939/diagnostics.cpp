@@ -114,6 +114,12 @@ void Diagnostics::count_active(const FaultSet& active) {
 }
 
 LongMessage Diagnostics::codes(std::uint32_t pgn, const DiagnosticState& state) const {
+  if (pgn == kSupportPgn) {
+    return supported_parameters();
+  }
+  if (pgn == kFreezeFramePgn) {
+    return freeze_frame(state.sample, state.stored);
+  }
   return pgn == kActiveCodesPgn
              ? trouble_codes(pgn, state.active, state.active, since_start_)
              : trouble_codes(pgn, stored_and(false, state), state.active, state.stored);
@@ -233,6 +239,8 @@ bool Diagnostics::answer_one(const Request& request, const DiagnosticState& stat
   switch (request.pgn) {
     case kActiveCodesPgn:
     case kPreviousCodesPgn:
+    case kSupportPgn:
+    case kFreezeFramePgn:
       return answer_codes(request, state, now, work);
     case kClearPreviousPgn:
     case kClearActivePgn:

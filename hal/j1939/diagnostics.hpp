@@ -8,6 +8,8 @@
 /// - *DM2*, codes that are stored and not active: on request.
 /// - *DM3, DM11*: clear the stored records of codes that are not active, or are. Nothing else: what
 ///   is active stays so, and no stop or latch ends. Not while the machine is armed or active.
+/// - *DM24, DM25*: the parameters of a freeze frame, and that of the last fault
+/// (frozen_sample.hpp).
 /// - A request to us alone is answered, by a connection where it is long; for a group that we do
 ///   not have, or may not clear, with a negative acknowledgment. One to all is never acknowledged.
 ///
@@ -23,6 +25,7 @@
 #include "firmware/core/fault_set.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/can_frame.hpp"
+#include "hal/j1939/frozen_sample.hpp"
 #include "hal/j1939/transport.hpp"
 #include "hal/j1939/trouble_codes.hpp"
 
@@ -32,7 +35,8 @@ namespace graben::j1939 {
 struct DiagnosticState {
   FaultSet active;
   EcuMode mode = EcuMode::kSilent;
-  Occurrences stored{};    ///< 0: it is not stored.
+  Occurrences stored{};  ///< 0: it is not stored.
+  FrozenSample sample;
   bool can_clear = false;  ///< What is cleared now will be taken.
 };
 

@@ -15,6 +15,8 @@ inline constexpr std::uint32_t kPreviousCodesPgn = 0xFECB;   ///< 65227, DM2
 inline constexpr std::uint32_t kAddressClaimedPgn = 0xEE00;  ///< 60928
 inline constexpr std::uint32_t kClearPreviousPgn = 0xFECC;   ///< 65228, DM3
 inline constexpr std::uint32_t kClearActivePgn = 0xFED3;     ///< 65235, DM11
+inline constexpr std::uint32_t kSupportPgn = 0xFDB6;         ///< 64950, DM24
+inline constexpr std::uint32_t kFreezeFramePgn = 0xFDB7;     ///< 64951, DM25
 
 inline constexpr std::uint8_t kGlobalAddress = 0xFF;
 inline constexpr std::uint8_t kNullAddress = 0xFE;

@@ -12,9 +12,9 @@
 
 namespace graben::j1939 {
 
-/// Trouble codes of a message, and the bytes that they need with the lamps.
+/// Trouble codes of a message, which need 70 bytes with the lamps; the longest one is DM24.
 inline constexpr std::size_t kMostCodes = 17;
-inline constexpr std::size_t kMostBytes = 2 + 4 * kMostCodes;
+inline constexpr std::size_t kMostBytes = 72;
 inline constexpr std::size_t kPacketBytes = 7;
 
 /// 9 to kMostBytes bytes of a group.

@@ -11,6 +11,7 @@ namespace {
 
 constexpr unsigned kAmberBit = 2;
 constexpr unsigned kRedBit = 4;
+constexpr std::size_t kMostCodeBytes = 2 + 4 * kMostCodes;
 constexpr std::uint8_t kNoFlashing = 0xFF;
 
 /// Smaller is more urgent; 3 of them.
@@ -23,11 +24,7 @@ int urgency(Fault fault) {
 }
 
 void put_code(LongMessage& message, Fault fault, std::uint8_t occurrences) {
-  const std::uint32_t spn = kDm1FirstSpn + static_cast<std::uint32_t>(fault);
-  const std::array<std::uint8_t, 4> code = {
-      static_cast<std::uint8_t>(spn), static_cast<std::uint8_t>(spn >> 8U),
-      static_cast<std::uint8_t>((spn >> 16U & 0x07U) << 5U | (fault_row(fault).fmi & 0x1FU)),
-      std::clamp<std::uint8_t>(occurrences, 1, kDm1MaxOccurrences)};
+  const std::array<std::uint8_t, 4> code = code_bytes(fault, occurrences);
   std::copy(code.begin(), code.end(), message.bytes.begin() + message.size);
   message.size = static_cast<std::uint16_t>(message.size + code.size());
 }
@@ -40,6 +37,13 @@ int count_of(const FaultSet& faults) {
     ++count;
   }
   return count;
+}
+
+std::array<std::uint8_t, 4> code_bytes(Fault fault, std::uint8_t occurrences) {
+  const std::uint32_t spn = kDm1FirstSpn + static_cast<std::uint32_t>(fault);
+  return {static_cast<std::uint8_t>(spn), static_cast<std::uint8_t>(spn >> 8U),
+          static_cast<std::uint8_t>((spn >> 16U & 0x07U) << 5U | (fault_row(fault).fmi & 0x1FU)),
+          std::clamp<std::uint8_t>(occurrences, 1, kDm1MaxOccurrences)};
 }
 
 LongMessage trouble_codes(std::uint32_t pgn, const FaultSet& faults, const FaultSet& lit,
@@ -55,7 +59,7 @@ LongMessage trouble_codes(std::uint32_t pgn, const FaultSet& faults, const Fault
   message.size = 2;
   for (int rank = 0; rank < 3; ++rank) {
     for (Fault fault = faults.first(); fault != Fault::kNone; fault = faults.after(fault)) {
-      if (urgency(fault) == rank && message.size + 4U <= kMostBytes) {
+      if (urgency(fault) == rank && message.size + 4U <= kMostCodeBytes) {
         put_code(message, fault, occurrences[static_cast<std::size_t>(fault)]);
       }
     }

@@ -17,6 +17,9 @@ using Occurrences = std::array<std::uint8_t, kFaultCount>;
 /// How many faults there are.
 [[nodiscard]] int count_of(const FaultSet& faults);
 
+/// A trouble code: SPN, FMI, and how often it came, from 1 to kDm1MaxOccurrences.
+[[nodiscard]] std::array<std::uint8_t, 4> code_bytes(Fault fault, std::uint8_t occurrences);
+
 /// `faults` as codes: those that stop before those that slow, those before the rest, and of each by
 /// their numbers; up to 17. `lit` are the faults that lamps are lit for. Fewer than two codes make
 /// 8 bytes, which need no transport.

@@ -104,6 +104,22 @@ def check_others(out: pathlib.Path) -> list[str]:
     return problems
 
 
+def check_sample(out: pathlib.Path) -> list[str]:
+    """DM24 and DM25 as the kernel got them: 18 parameters, and the sample of a fault that came first."""
+    both = (out / "to_f6").read_bytes()
+    support, frame = both[:72], both[72:]
+    fours = [support[at:at + 4] for at in range(0, len(support), 4)]
+    spns = [four[0] | four[1] << 8 | four[2] >> 5 << 16 for four in fours]
+    if len(both) != 112 or spns != list(range(520448, 520466)) or [four[3] for four in fours] != 17 * [2] + [1] or frame[0] != 39:
+        return [f"DM24, DM25: {both.hex()}"]
+    fault = (frame[1] | frame[2] << 8 | frame[3] >> 5 << 16) - SPN_BASE
+    words = struct.unpack("<17H", frame[5:39])
+    # Nothing is measured without a machine; every duty is 0, and the mode is Silent.
+    if fault not in MISSING or set(words[:12]) != {0xFFFF} or set(words[12:16]) != {32000} or frame[39] != 0:
+        return [f"DM25: fault {fault}, {words}, mode {frame[39]}"]
+    return []
+
+
 def check_tool(out: pathlib.Path) -> list[str]:
     """What `graben faults --can` says."""
     said = json.loads((out / "faults.json").read_text())
@@ -158,7 +174,7 @@ def stored(folder: pathlib.Path) -> dict[int, int]:
 
 
 def check(out: pathlib.Path) -> list[str]:
-    problems = check_bus(bus_log.frames(out / "vcan0.log")) + check_others(out) + check_tool(out) + check_claim(out)
+    problems = check_bus(bus_log.frames(out / "vcan0.log")) + check_others(out) + check_tool(out) + check_sample(out) + check_claim(out)
     before, after = stored(out / "before"), stored(out / "after")
     if set(before) != MISSING or set(before.values()) != {1} or after:
         problems.append(f"stored: {before}, after DM11 {after}")

@@ -10,6 +10,7 @@ record vcan0
 # Others' J1939 beside ours: the kernel puts DM1 together, and takes what is for address F8.
 j1939cat vcan0:0xf7,0xfeca -B -r >"$OUT/dm1" &
 j1939cat vcan0:0xf8 -r >"$OUT/to_f8" &
+j1939cat vcan0:0xf6 -r >"$OUT/to_f6" &
 ecu_start vcan0 excavator_22t.toml --stats "$OUT/stats" --store /store
 sleep 12.5
 # DM2; a group that there is not, of us and of all; DM3; what is no request; DM1 of us alone, which is long.
@@ -22,6 +23,13 @@ sleep 1.3
 printf '\312\376\0' >/tmp/request
 j1939cat -i /tmp/request vcan0:0xf8,0xea00 :0x82,0xea00
 sleep 1
+# DM24 and DM25, what a freeze frame has and the last one, for another one of the kernel's.
+printf '\266\375\0' >/tmp/request
+j1939cat -i /tmp/request vcan0:0xf6,0xea00 :0x82,0xea00
+sleep 2
+printf '\267\375\0' >/tmp/request
+j1939cat -i /tmp/request vcan0:0xf6,0xea00 :0x82,0xea00
+sleep 2
 # Our own tool for a workshop.
 graben faults --can vcan0 --json >"$OUT/faults.json" || fail 'graben faults'
 graben faults --can vcan0 --address 33 2>"$OUT/nobody" && fail 'an ECU that there is not has answered'

@@ -41,6 +41,9 @@ void FaultRecorder::forget(const FaultSet& cleared, TimeUs now_us) {
     cleared_.add(fault);
     // A frame that is not whole yet is forgotten with it.
     waiting_.remove(fault);
+    if (last_.fault == fault) {
+      last_.fault = Fault::kNone;
+    }
   }
   if (rings_ != nullptr) {
     static_cast<void>(rings_->events.put({Fault::kNone, now_us, cleared}));
@@ -57,7 +60,8 @@ void FaultRecorder::keep(const CycleSample& sample) {
   count_ = count_ < kFrameSamples ? count_ + 1 : count_;
 }
 
-void FaultRecorder::note(const FaultSet& faults, TimeUs now_us) {
+void FaultRecorder::note(const FaultSet& faults, const CycleSample& sample) {
+  const TimeUs now_us = sample.now_us;
   for (Fault fault = faults.first(); fault != Fault::kNone; fault = faults.after(fault)) {
     if (there_.has(fault)) {
       continue;
@@ -65,6 +69,10 @@ void FaultRecorder::note(const FaultSet& faults, TimeUs now_us) {
     const auto i = static_cast<std::size_t>(fault);
     stored_[i] = limited(stored_[i] + 1U);
     own_[i] = limited(own_[i] + 1U);
+    // Of several in one cycle the first, which stands for what they followed from.
+    if (last_.fault == Fault::kNone || last_.sample.now_us != now_us) {
+      last_ = {fault, sample};
+    }
     if (rings_ == nullptr) {
       continue;
     }
@@ -123,7 +131,7 @@ void FaultRecorder::look(const CycleSample& sample, const FaultSet& faults) {
     return;
   }
   if (counts_) {
-    note(faults, sample.now_us);
+    note(faults, sample);
   }
   if (!waiting_.empty()) {
     hand_over_due(sample.now_us);

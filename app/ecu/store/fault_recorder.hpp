@@ -34,6 +34,12 @@ struct FaultRings {
   SpscRing<Occurrences, 4> found;
 };
 
+/// The cycle in which a fault came.
+struct FaultSample {
+  Fault fault = Fault::kNone;
+  CycleSample sample;
+};
+
 class FaultRecorder {
  public:
   /// `rings` outlives it; null: there is no store, and what is counted ends with the process.
@@ -50,12 +56,14 @@ class FaultRecorder {
   [[nodiscard]] const Occurrences& stored() const { return stored_; }
   /// Whether what is forgotten now will be so on the disk too.
   [[nodiscard]] bool can_forget() { return rings_ == nullptr || rings_->events.has_room(); }
+  /// As the last fault came that is stored; with no fault, there was none since the start.
+  [[nodiscard]] const FaultSample& last() const { return last_; }
   void forget(const FaultSet& cleared, TimeUs now_us);
 
  private:
   void go_on_from(const Occurrences& found);
   void keep(const CycleSample& sample);
-  void note(const FaultSet& faults, TimeUs now_us);
+  void note(const FaultSet& faults, const CycleSample& sample);
   void hand_over_due(TimeUs now_us);
 
   FaultRings* rings_;
@@ -66,8 +74,9 @@ class FaultRecorder {
   std::size_t next_ = 0;                           ///< Place of the next one.
   std::size_t count_ = 0;
   int until_sample_ = 0;  ///< Cycles.
-  FaultSet there_;        ///< In the last cycle.
-  FaultSet waiting_;      ///< Whose frame is not whole yet.
+  FaultSample last_;
+  FaultSet there_;    ///< In the last cycle.
+  FaultSet waiting_;  ///< Whose frame is not whole yet.
   std::array<TimeUs, kFaultCount> came_us_{};
   TimeUs start_us_ = 0;
   bool has_started_ = false;

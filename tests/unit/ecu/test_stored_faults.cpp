@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "app/ecu/store/frozen_fault.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/ecu/fault_process.hpp"
 
@@ -83,6 +84,43 @@ TEST(a_frame_is_from_half_a_second_before_to_a_fifth_after) {
     assert_near(sample.lambda, 0.75, 0.0);
     assert_int_equal(sample.known, 1);
   }
+}
+
+TEST(the_last_faults_sample_is_at_hand_until_it_is_forgotten) {
+  MemoryDisk disk;
+  Process process(disk);
+  assert_true(frozen_of(process.recorder().last()).fault == Fault::kNone);
+  make_ready(process);
+  process.pulse(kOne, 1.0);
+  process.sample.pressure_pa[7] = 31.25e6F;
+  process.sample.duty_ratio[3] = -0.25F;
+  process.sample.lambda = 0.75F;
+  process.sample.mode = EcuMode::kActive;
+  process.pulse(kOther, 1.0);
+  const j1939::FrozenSample frozen = frozen_of(process.recorder().last());
+  assert_true(frozen.fault == kOther);
+  // What was not measured is not told.
+  assert_int_equal(frozen.word[1], j1939::kNoWord);
+  assert_int_equal(frozen.word[11], j1939::kNoWord);
+  assert_int_equal(frozen.word[15], 29'500);
+  assert_int_equal(frozen.word[16], 39'500);
+  assert_int_equal(frozen.mode, static_cast<int>(EcuMode::kActive));
+  FaultSet all;
+  all.add(kOther);
+  process.recorder().forget(all, process.now_us);
+  assert_true(frozen_of(process.recorder().last()).fault == Fault::kNone);
+}
+
+TEST(a_sample_is_told_in_its_units) {
+  FaultSample from;
+  from.fault = kOne;
+  from.sample.known = 0x0801;
+  from.sample.stroke[0] = 1.2345F;
+  from.sample.pressure_pa[7] = 31.25e6F;
+  const j1939::FrozenSample frozen = frozen_of(from);
+  assert_int_equal(frozen.word[0], 44'345);
+  assert_int_equal(frozen.word[11], 31'250);
+  assert_int_equal(frozen.word[4], j1939::kNoWord);
 }
 
 TEST(faults_that_come_together_have_each_their_frame) {

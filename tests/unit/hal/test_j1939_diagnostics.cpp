@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Diagnosis on J1939 as a workshop's tool sees it.
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -309,4 +310,63 @@ TEST(a_group_that_we_do_not_have_is_refused_to_one_and_never_to_all) {
   ecu.request(0xFF31);
   ecu.run(0.1);
   assert_true(ecu.acknowledged(0xFF31).empty());
+}
+
+// Four bytes a parameter: SPN, what it is good for, its bytes.
+TEST(parameters_of_a_freeze_frame_are_told) {
+  Ecu ecu;
+  ecu.request(64950, 255);
+  ecu.run(1.5);
+  const auto told = ecu.tool.of(64950);
+  assert_int_equal(told.size(), 1);
+  assert_int_equal(told[0].bytes.size(), 72);
+  for (unsigned i = 0; i < 18; ++i) {
+    const unsigned* four = told[0].bytes.data() + 4 * i;
+    assert_int_equal(four[0] | four[1] << 8U | four[2] / 32U << 16U, 520448 + i);
+    // In the expanded freeze frame (0), in no data stream (1), no test (1).
+    assert_int_equal(four[2] % 8U, 6);
+    assert_int_equal(four[3], i == 17 ? 1 : 2);
+  }
+}
+
+TEST(the_last_faults_sample_is_told_while_the_fault_is_stored) {
+  Ecu ecu;
+  ecu.request(64951);
+  ecu.run(0.1);
+  const std::vector<unsigned> none = {0, 0, 0, 0, 0, 255, 255, 255};
+  assert_true(ecu.tool.of(64951).back().bytes == none);
+
+  ecu.store(Fault::kSwashMissing, 7);
+  ecu.state.sample.fault = Fault::kSwashMissing;
+  ecu.state.sample.mode = 3;
+  for (unsigned i = 0; i < kSampleWords; ++i) {
+    ecu.state.sample.word[i] = static_cast<std::uint16_t>(0x1000 * (i % 15) + i);
+  }
+  ecu.request(64951, 255);
+  ecu.run(1.5);
+  const auto told = ecu.tool.of(64951).back().bytes;
+  assert_int_equal(told.size(), 40);
+  assert_int_equal(told[0], 39);
+  assert_int_equal(told[1] | told[2] << 8U | told[3] / 32U << 16U,
+                   520192U + static_cast<unsigned>(Fault::kSwashMissing));
+  assert_int_equal(told[3] % 32U, 9);
+  assert_int_equal(told[4], 7);
+  for (unsigned i = 0; i < kSampleWords; ++i) {
+    assert_int_equal(told[5 + 2 * i] | told[6 + 2 * i] << 8U, 0x1000 * (i % 15) + i);
+  }
+  assert_int_equal(told[39], 3);
+
+  ecu.store(Fault::kSwashMissing, 0);
+  ecu.request(64951);
+  ecu.run(0.1);
+  assert_true(ecu.tool.of(64951).back().bytes == none);
+}
+
+TEST(a_value_that_does_not_fit_is_not_available) {
+  assert_int_equal(sample_word(1.2345, 0.0001, -3.2), 44345);
+  assert_int_equal(sample_word(-3.2, 0.0001, -3.2), 0);
+  assert_int_equal(sample_word(64'255'000.0, 1000.0, 0.0), 64255);
+  for (const double wrong : {-3.3, 3.3, 1e30, -1e30, std::nan("")}) {
+    assert_int_equal(sample_word(wrong, 0.0001, -3.2), kNoWord);
+  }
 }
