@@ -8,6 +8,7 @@
 /// under one address is to be mended, not waited out.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "firmware/core/time.hpp"
