@@ -29,6 +29,8 @@ struct DozerKind {
   using Controller = DozerController;
   using Receiver = DozerReceiver;
   using Transmitter = DozerTransmitter;
+  /// Nothing that is worth keeping: its flow share and its tracks' slip are of the ground.
+  struct Learnt {};
   using MemoryAccess = DozerMemoryAccess;
   using Ecu = EcuNode<DozerKind>;
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "app/ecu/last_frames.hpp"
 #include "can_dbc/generated/common_dbc.hpp"
@@ -60,6 +61,8 @@ class BusWatch {
 ///   parts(setup)                         what its bus has beyond every machine of its kind;
 ///   is_command(id)                       true where losing this frame leaves the machine without
 ///                                        its command;
+///   Learnt                               what the controller has learnt of the machine, empty
+///                                        where that is nothing: else learnt() and begin() of it;
 ///   MemoryAccess                         of the tests.
 /// What is built around the node needs more: Dbc, the bus's messages; Ecu, the node's own type;
 /// Profile, Machine and kHasTasks, to make a setup from files; kName, `kind` in a profile.
@@ -91,6 +94,23 @@ class EcuNode {
   /// took, for the status frame; 0 where time is simulated. A port that is lost is opened again as
   /// BusWatch has it.
   void step(TimeUs now_us, TimeUs last_cycle_us);
+
+  /// What the controller has learnt of the machine, and to begin with that of another run, before
+  /// the first step; false if it is not sound.
+  [[nodiscard]] typename Kind::Learnt learnt() const {
+    if constexpr (std::is_empty_v<typename Kind::Learnt>) {
+      return {};
+    } else {
+      return controller_.learnt();
+    }
+  }
+  [[nodiscard]] bool begin([[maybe_unused]] const typename Kind::Learnt& learnt) {
+    if constexpr (std::is_empty_v<typename Kind::Learnt>) {
+      return false;
+    } else {
+      return controller_.begin(learnt);
+    }
+  }
 
   /// From the next cycle on the controller is told to end.
   void request_stop() { stop_requested_ = true; }

@@ -166,7 +166,10 @@ std::uint32_t small(std::uint64_t count) {
 class Workshop {
  public:
   Workshop(AddressPort& address, DiagnosticPort& port, ProcessStore* store)
-      : address_(address), port_(port), recorder_(store == nullptr ? nullptr : &store->rings()) {
+      : address_(address),
+        port_(port),
+        rings_(store == nullptr ? nullptr : &store->rings()),
+        recorder_(rings_) {
     if (store != nullptr) {
       recorder_.begin(store->found());
     }
@@ -182,13 +185,25 @@ class Workshop {
     const FaultSet cleared = port_.finish({status.faults, status.mode, recorder_.stored(),
                                            frozen_of(recorder_.last()), recorder_.can_forget()});
     recorder_.forget(cleared, now_us);
+    keep_learnt(ecu, now_us);
     address_.finish();
   }
 
  private:
+  /// A copy each second, for the store; one that it has no room for is followed by another.
+  template <class Ecu>
+  void keep_learnt(const Ecu& ecu, TimeUs now_us) {
+    if (rings_ != nullptr && now_us - learnt_us_ >= kSecondUs && rings_->learnt.has_room()) {
+      learnt_us_ = now_us;
+      static_cast<void>(rings_->learnt.put(record_of(ecu.learnt())));
+    }
+  }
+
   AddressPort& address_;
   DiagnosticPort& port_;
+  FaultRings* rings_;
   FaultRecorder recorder_;
+  TimeUs learnt_us_ = 0;
 };
 
 template <class Ecu>
@@ -279,6 +294,10 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   UsageMark mark;
   ecu.set_last_frames(last);
   auto store = open_store<Kind>(options.store, profile_hash);
+  if (typename Kind::Learnt learnt;
+      store != nullptr && learnt_from(store->found().learnt, learnt) && !ecu.begin(learnt)) {
+    std::fputs("graben-ecu: store: what was learnt is beyond what can be: begins anew\n", stderr);
+  }
   const EndSignals signals(last, buses.ports);
   demand(signals.error(), "");
   claim_address(address);

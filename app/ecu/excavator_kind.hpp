@@ -29,6 +29,7 @@ struct ExcavatorKind {
   using Controller = ExcavatorController;
   using Receiver = ExcavatorReceiver;
   using Transmitter = ExcavatorTransmitter;
+  using Learnt = LearntDrives;
   using MemoryAccess = ControllerMemoryAccess;
   using Ecu = EcuNode<ExcavatorKind>;
 

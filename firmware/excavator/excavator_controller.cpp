@@ -47,6 +47,17 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   return outputs;
 }
 
+LearntDrives ExcavatorController::learnt() const { return learnt_of(memory_->inputs.watch.drives); }
+
+bool ExcavatorController::begin(const LearntDrives& learnt) {
+  if (!is_sound(learnt) || !memory_.intact()) {
+    return false;
+  }
+  begin_learnt(learnt, memory_->inputs.watch.drives);
+  memory_.seal();
+  return true;
+}
+
 Motion ExcavatorController::next_motion(const ExcavatorValid& valid, const Cycle& cycle) {
   Memory& is = *memory_;
   const MotionUnderWay under_way = motion_under_way(machine_, sources_.book, valid, is.motion);

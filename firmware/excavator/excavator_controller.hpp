@@ -3,6 +3,7 @@
 /// The excavator's controller: one step from signals to commands, 100 times a second.
 
 #include "firmware/core/sealed.hpp"
+#include "firmware/excavator/learnt_drives.hpp"
 #include "firmware/excavator/status/status.hpp"
 
 namespace graben {
@@ -36,6 +37,12 @@ class ExcavatorController {
   /// One cycle. Any fault gives neutral commands and its code; time only ever counts by
   /// difference, and `now_us` must not fall from call to call.
   [[nodiscard]] ExcavatorOutputs step(const ExcavatorInputs& inputs, TimeUs now_us);
+
+  /// What it has learnt of its valves so far.
+  [[nodiscard]] LearntDrives learnt() const;
+  /// To begin with what another run has learnt, before the first step. False, and nothing has
+  /// changed, if that is not sound.
+  [[nodiscard]] bool begin(const LearntDrives& learnt);
 
  private:
   /// Lets tests flip a bit of what is stored.

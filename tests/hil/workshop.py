@@ -169,7 +169,7 @@ def stored(folder: pathlib.Path) -> dict[int, int]:
         body = record[32:32 + length]
         if magic == b"GRBR" and zlib.crc32(record[:28] + body) == sum_ and (version, kind) == (1, 1) and sequence > newest:
             newest, payload = sequence, body
-    entries = struct.iter_unpack("<HIIIIII", payload[20:])
+    entries = struct.iter_unpack("<HIIIIII", payload[20:20 + 26 * int.from_bytes(payload[18:20], "little")])
     return {fault: occurrences for fault, occurrences, *_ in entries}
 
 

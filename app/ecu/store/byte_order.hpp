@@ -54,6 +54,8 @@ class ByteReader {
     return value;
   }
   [[nodiscard]] bool good() const { return good_; }
+  /// Bytes that were not read yet.
+  [[nodiscard]] std::size_t left() const { return left_; }
 
  private:
   std::uint64_t take(std::size_t bytes) {

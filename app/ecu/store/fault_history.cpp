@@ -10,7 +10,9 @@ namespace graben::ecu {
 namespace {
 constexpr std::size_t kFixedBytes = 20;
 constexpr std::size_t kEntryBytes = 26;
-static_assert(kFixedBytes + (FaultSet::kNumbers - 1) * kEntryBytes <= kMostPayloadBytes,
+constexpr std::size_t kLearntBytes = 2 + 4 * LearntRecord::kMost;
+static_assert(kFixedBytes + (FaultSet::kNumbers - 1) * kEntryBytes + kLearntBytes <=
+                  kMostPayloadBytes,
               "or some fault has no room");
 }  // namespace
 
@@ -40,6 +42,7 @@ void FaultHistory::follow(const FaultHistory& found, const FaultSet& cleared) {
   boot = found.boot;
   tokens = found.tokens;
   lost = found.lost;
+  learnt = learnt.count > 0 ? learnt : found.learnt;
   for (int number = 1; number < kFaultCount; ++number) {
     const auto fault = static_cast<Fault>(number);
     FaultEntry& own = of(fault);
@@ -79,6 +82,7 @@ std::size_t write_history(const FaultHistory& history, std::uint8_t* payload) {
     to.u32(one.last_unix_s);
     to.u32(one.last_cycle);
   }
+  write_learnt(history.learnt, to);
   return to.count();
 }
 
@@ -105,6 +109,8 @@ bool read_history(const std::uint8_t* payload, std::size_t length, FaultHistory&
       history.entry[number] = one;
     }
   }
+  // An earlier version ends here.
+  history.learnt = from.left() > 0 ? read_learnt(from) : LearntRecord{};
   return from.good();
 }
 

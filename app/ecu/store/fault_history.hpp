@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What is remembered of each fault, and of the operation that it is counted in.
+/// What is remembered of each fault, of the operation that it is counted in, and what the
+/// controller has learnt meanwhile: one record, so that none of it costs a write of its own.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "app/ecu/store/learnt_record.hpp"
 #include "app/ecu/store/record_format.hpp"
 #include "firmware/core/codes.hpp"
 #include "firmware/core/fault_set.hpp"
@@ -34,6 +36,7 @@ struct FaultHistory {
   std::uint16_t tokens = 0;        ///< Of the wear budget.
   std::uint32_t lost = 0;          ///< Events and frames for which there was no room.
   std::array<FaultEntry, kFaultCount> entry{};
+  LearntRecord learnt;  ///< Last, so that a reader that does not know it reads the rest.
 
   [[nodiscard]] FaultEntry& of(Fault fault) { return entry[static_cast<std::size_t>(fault)]; }
   [[nodiscard]] const FaultEntry& of(Fault fault) const {

@@ -113,6 +113,11 @@ void FaultKeeper::drain(TimeUs now_us, std::uint32_t unix_s) {
     rings_.events.take();
     changed(now_us);
   }
+  while (const LearntRecord* const learnt = rings_.learnt.front()) {
+    // Written with what is written anyway.
+    history_.learnt = own_.learnt = *learnt;
+    rings_.learnt.take();
+  }
   while (const FreezeFrame* const frame = rings_.frames.front()) {
     if (!waiting_.take(*frame, now_us)) {
       ++frames_lost_;

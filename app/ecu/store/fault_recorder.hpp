@@ -32,6 +32,8 @@ struct FaultRings {
   SpscRing<FreezeFrame, 2> frames;
   /// and back: what was on a disk that came later, in the place of what begin() was given.
   SpscRing<Occurrences, 4> found;
+  /// To the store's thread, what has been learnt so far.
+  SpscRing<LearntRecord, 2> learnt;
 };
 
 /// The cycle in which a fault came.

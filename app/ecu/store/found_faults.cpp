@@ -89,11 +89,12 @@ FoundLine found_words(const FoundFaults& found, const FaultHistory& now) {
                                     found.foreign_frames));
   }
   FoundLine line{};
-  static_cast<void>(
-      std::snprintf(line.data(), line.size(),
-                    "%s; power cycle %u, %u h of operation, faults stored: %d, freeze frames: %d%s",
-                    state_words(found.state), now.power_cycles, now.operation_s / 3600U,
-                    now.stored(), found.frames(now), foreign.data()));
+  static_cast<void>(std::snprintf(
+      line.data(), line.size(),
+      "%s; power cycle %u, %u h of operation, faults stored: %d, freeze frames: %d%s; "
+      "what was learnt: %s",
+      state_words(found.state), now.power_cycles, now.operation_s / 3600U, now.stored(),
+      found.frames(now), foreign.data(), now.learnt.count > 0 ? "read" : "new"));
   return line;
 }
 

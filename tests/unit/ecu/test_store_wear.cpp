@@ -244,7 +244,8 @@ TEST(bytes_that_are_no_record_are_refused) {
   assert_true(read_history(bytes.data(), length, history));
   assert_int_equal(history.of(kOne).last_unix_s, 4);
   for (std::size_t shorter = 0; shorter < length; ++shorter) {
-    assert_false(read_history(bytes.data(), shorter, history));
+    // Without its last two bytes it is one of an earlier version, which knew of nothing learnt.
+    assert_true(read_history(bytes.data(), shorter, history) == (shorter == length - 2));
   }
   StoredFrame frame;
   frame.fault = kOther;

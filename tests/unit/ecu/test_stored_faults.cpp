@@ -111,6 +111,59 @@ TEST(the_last_faults_sample_is_at_hand_until_it_is_forgotten) {
   assert_true(frozen_of(process.recorder().last()).fault == Fault::kNone);
 }
 
+TEST(what_was_learnt_comes_back_with_the_profile_and_not_with_another) {
+  MemoryDisk disk;
+  LearntDrives learnt{};
+  learnt[1] = {0.0125, -0.01};
+  learnt[3].retract = -0.07;
+  {
+    Process process(disk);
+    assert_true(holds(process.begin_text, "; what was learnt: new"));
+    assert_true(process.rings().learnt.put(record_of(learnt)));
+    process.run(1.0);
+    process.end();
+  }
+  Process again(disk);
+  assert_true(holds(again.begin_text, "; what was learnt: read"));
+  LearntDrives found{};
+  assert_true(learnt_from(again.keeper().history().learnt, found));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    assert_near(found[i].extend, learnt[i].extend, 1e-7);
+    assert_near(found[i].retract, learnt[i].retract, 1e-7);
+  }
+  // Faults that are cleared take nothing of it along.
+  again.run(1.0);
+  again.end();
+  assert_true(learnt_from(stored(disk).history.learnt, found));
+  Process other(disk, 1, kProfile + 1);
+  assert_true(holds(other.begin_text, "; what was learnt: new"));
+  assert_int_equal(other.keeper().history().learnt.count, 0);
+}
+
+TEST(a_record_without_it_or_with_more_has_nothing_learnt) {
+  FaultHistory history;
+  history.operation_s = 77;
+  history.of(kOne).occurrences = 3;
+  history.learnt.count = LearntRecord::kMost;
+  history.learnt.value.fill(0.01F);
+  std::array<std::uint8_t, kMostPayloadBytes> payload{};
+  const std::size_t length = write_history(history, payload.data());
+  FaultHistory found;
+  assert_true(read_history(payload.data(), length, found));
+  assert_int_equal(found.learnt.count, LearntRecord::kMost);
+  const std::size_t at = length - 2 - 4 * LearntRecord::kMost;
+  // One of an earlier version ends before it; one that is cut is none.
+  assert_true(read_history(payload.data(), at, found));
+  assert_int_equal(found.of(kOne).occurrences, 3);
+  assert_int_equal(found.learnt.count, 0);
+  for (const std::size_t left : {at + 1, at + 2, length - 1}) {
+    assert_false(read_history(payload.data(), left, found));
+  }
+  payload[at] = LearntRecord::kMost + 1;
+  assert_true(read_history(payload.data(), length, found));
+  assert_int_equal(found.learnt.count, 0);
+}
+
 TEST(a_sample_is_told_in_its_units) {
   FaultSample from;
   from.fault = kOne;
@@ -241,7 +294,7 @@ TEST(a_history_whose_disk_comes_late_goes_on) {
   assert_false(process.keeper().is_failing());
   assert_true(holds(said(),
                     "store: the disk is there now: read; power cycle 2, 0 h of operation, "
-                    "faults stored: 1, freeze frames: 1; damaged files: 0"));
+                    "faults stored: 1, freeze frames: 1; what was learnt: new; damaged files: 0"));
   StoredFaults found = stored(disk);
   assert_true(found.history.operation_s >= 14 + 61 && found.history.operation_s <= 14 + 70);
   assert_int_equal(found.history.power_cycles, 2);
@@ -331,7 +384,8 @@ TEST(a_damaged_store_starts_and_names_its_files) {
   Process process(disk, 2);
   assert_string_equal(process.begin_text.c_str(),
                       "new, what was there is damaged; power cycle 1, 0 h of operation, faults "
-                      "stored: 0, freeze frames: 0; damaged: faults.a, faults.b, frame-001.a");
+                      "stored: 0, freeze frames: 0; what was learnt: new; damaged: faults.a, "
+                      "faults.b, frame-001.a");
   const StoredFaults found = stored(disk);
   assert_false(found.has_history);
   assert_int_equal(found.damaged.size(), 3);

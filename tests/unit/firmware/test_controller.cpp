@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <limits>
 
 #include "tests/unit/firmware/running.hpp"
 
@@ -191,4 +192,29 @@ TEST(a_small_jump_that_stays_stops, Running running) {
   assert_int_equal(running.outputs.status.mode, EcuMode::kFault);
   assert_true(running.outputs.status.faults.has(Fault::kStrokeJump));
   assert_neutral(running.outputs);
+}
+
+TEST(what_another_run_has_learnt_is_begun_with_if_it_can_be) {
+  const auto setup = std::make_shared<ExcavatorSetup>(test::excavator().profile);
+  ExcavatorController controller(*setup);
+  LearntDrives learnt{};
+  learnt[kArm] = {0.05, -0.07};
+  assert_true(controller.begin(learnt));
+  assert_near(controller.learnt()[kArm].extend, 0.05, 0.0);
+  assert_near(controller.learnt()[kArm].retract, -0.07, 0.0);
+  // What it stores is sealed with that: the next cycle is none of broken memory.
+  const ExcavatorOutputs outputs = controller.step(test::complete_inputs(kSecondUs), kSecondUs);
+  assert_false(outputs.status.faults.has(Fault::kMemoryCorrupt));
+  assert_false(outputs.status.edges[kArm].extend.known);
+  assert_near(controller.learnt()[kArm].extend, 0.05, 1e-9);
+  for (const double wrong :
+       {0.0701, -0.0701, 1e300, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    for (const bool extends : {true, false}) {
+      LearntDrives off = learnt;
+      (extends ? off[kSwing].extend : off[kBoom].retract) = wrong;
+      off[kArm].extend = 0.01;
+      assert_false(controller.begin(off));
+      assert_near(controller.learnt()[kArm].extend, 0.05, 1e-9);
+    }
+  }
 }
