@@ -87,13 +87,18 @@ const std::vector<const char*> kAskedOfDozer = {"body.mass_centre_height",
                                                 "hst.engine_range",
                                                 "hst.pump_displacement",
                                                 "hst.motor_displacement",
+                                                "hst.gear_ratio",
                                                 "hst.sprocket_radius",
                                                 "safety.idle"};
 
-const std::map<std::string, WorkshopUnit> kUnits = {
-    {"m", {"mm", 1e-3}},  {"rad", {"deg", kPi / 180.0}},  {"rad/s", {"rpm", kPi / 30.0}},
-    {"Pa", {"bar", 1e5}}, {"m3/s", {"L/min", 1.0 / 6e4}}, {"m3/rev", {"cm3/rev", 1e-6}},
-    {"m3", {"m3", 1.0}}};
+const std::map<std::string, WorkshopUnit> kUnits = {{"m", {"mm", 1e-3}},
+                                                    {"rad", {"deg", kPi / 180.0}},
+                                                    {"rad/s", {"rpm", kPi / 30.0}},
+                                                    {"Pa", {"bar", 1e5}},
+                                                    {"m3/s", {"L/min", 1.0 / 6e4}},
+                                                    {"m3/rev", {"cm3/rev", 1e-6}},
+                                                    {"m3", {"m3", 1.0}},
+                                                    {"", {"ratio", 1.0}}};
 
 std::vector<double> numbers_of(const toml::node& node) {
   std::vector<double> numbers;

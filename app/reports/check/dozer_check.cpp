@@ -229,6 +229,10 @@ void expect_plant(Warnings& warnings, const machines::SimulatedDozer& machine) {
   warnings.expect("blade.reach", plant.blade_reach_m / profile.blade.cutting_edge_m, 0.4, 1.1,
                   fmt::format("mass centre {:g} m from the pivot, of the cutting edge's distance",
                               plant.blade_reach_m));
+  const double size_m = std::pow(1e-3 * profile.body.mass_kg, 0.29);  // As in likely_dozer.cpp.
+  warnings.expect(
+      "blade.width", plant.blade_shape.width_m, 1.15 * size_m, 2.2 * size_m,
+      fmt::format("width of the blade of a machine of {:.3g} t", 1e-3 * profile.body.mass_kg), "m");
   const double length_m = profile.body.track_contact_m;
   warnings.expect(
       "body.pitch_inertia", plant.pitch_inertia_kgm2 / (profile.body.mass_kg * length_m * length_m),

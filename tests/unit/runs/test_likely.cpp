@@ -100,6 +100,7 @@ const std::vector<Slip> kSlips = {
     {kBig, "", "pump_power = 250e3", "pump_power = 250.0"},
     {kBig, "", "speed = 0.6 ", "speed = 600.0 "},
     {kDozer, "", "mass = 8900.0", "mass = 8.9"},
+    {kDozer, "", "mass = 8900.0", "mass = 20000.0"},
     {kDozer, "", "half_gauge = 0.90", "half_gauge = 1.80"},
     {kDozer, "", "engine_speed = 157.08", "engine_speed = 1500"},
     {kDozer, "", "sprocket_radius = 0.35", "sprocket_radius = 0.70"},
