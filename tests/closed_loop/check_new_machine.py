@@ -148,7 +148,8 @@ def by_name(graben, folder):
     assert profile["pump"][1]["relief"] == 343e5 and profile["bucket"]["capacity"] == 0.6, profile["pump"]
     assert profile["body"]["boom_foot"] == [0.14, 1.424], profile["body"]
     assert "\npump_count: " in done.stdout and "[1]: 2\n" in done.stdout, done.stdout[:500]
-    for answers, needle in ((["pump_count = 1", "pump[1].relief = 343"], "pump[1].relief: is not asked of such a machine"),
+    for answers, needle in ((["pump[0].relief = 34.3"], "pump[0].relief: 34.3 bar; in MPa? then it is 343 bar"),
+                            (["pump_count = 1", "pump[1].relief = 343"], "pump[1].relief: is not asked of such a machine"),
                             (["pump_count = 1", "343"], "'343': KEY = ANSWER is wanted"),
                             (["pump_count = 1", "pump_count = 2"], "pump_count: is answered twice"),
                             ([*[""] * 300, "7"], "'7', line 301: more answers than questions")):

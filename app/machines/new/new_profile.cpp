@@ -242,6 +242,13 @@ void assert_fits(const ProfileDocument& like, const ProfileQuestion& question,
     }
     throw std::runtime_error(fmt::format("in metres? then it is {} mm", text));
   }
+  // Nor has any so much less pressure; but a MPa has 10 bar.
+  constexpr double kNoSuchPressure = 0.2;
+  if (question.unit.name == std::string_view("bar") && told > 0.0 &&
+      told < kNoSuchPressure * norm_of(question.before)) {
+    throw std::runtime_error(fmt::format("{:.6g} bar; in MPa? then it is {:.6g} bar",
+                                         numbers.front(), 10.0 * numbers.front()));
+  }
   const std::string& key = question.key;
   const std::size_t rod = key.rfind(".rod");
   if (rod == std::string::npos || rod + 4 != key.size()) {

@@ -243,6 +243,10 @@ void expect_plant(Warnings& warnings, const machines::SimulatedDozer& machine) {
                   fmt::format("{:g} N, of the cylinders' force at relief", plant.coulomb_n), "%");
   warnings.expect("implement.relief", force_n / (profile.body.mass_kg * plant.gravity_mps2), 0.8,
                   20.0, "cylinders' force at relief, over the machine's weight");
+  warnings.expect("implement.relief", 1e-6 * plant.implement_relief_pa, 12.0, 40.0,
+                  "relief of the implement's pump", "MPa");
+  warnings.expect("hst.relief", 1e-6 * plant.hst_relief_pa, 25.0, 65.0,
+                  "relief of the transmission's lines", "MPa");
   warnings.add_if(plant.charge_pa > 0.2 * plant.hst_relief_pa, "hst.charge",
                   fmt::format("{:.1f} MPa of charge under a relief of {:.1f} MPa; usual: at most a "
                               "fifth",
