@@ -95,9 +95,9 @@ void run_task(const TaskCommand& options) {
   summary.raised_max_m = machines::most_raised_m(task.request, task.result);
   reports::write_autodig_report(
       {report, scope::scope_page()}, run.log_file, machine, task, result, summary,
-      fmt::format("{} | task {} | {} | speed {:.0f} %", runs::machine_text(machine),
+      fmt::format("{} | task {} | {} | speed {:.0f} %{}", runs::machine_text(machine),
                   options.scenario.task, runs::machine_text(options.scenario),
-                  run.speed_override_ratio * 100.0));
+                  run.speed_override_ratio * 100.0, runs::told_faults_subtitle(options.faults)));
   if (!options.summary.empty()) {
     reports::write_autodig_summary(options.summary, summary);
   }

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -15,6 +16,7 @@
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
+#include "app/machines/new/origin.hpp"
 #include "app/machines/simulated/key_reference.hpp"
 #include "app/reports/check/machine_check.hpp"
 #include "app/reports/check/stop_table.hpp"
@@ -90,6 +92,19 @@ reports::MachineCheck check_of(const fs::path& file, const CheckCommand& options
   return reports::check_machine(machine, nullptr);
 }
 
+/// Of a profile by new-machine: how much of it is another machine's.
+void add_origin(const fs::path& file, reports::MachineCheck& found) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (const auto origin = machines::origin_of(text)) {
+    found.tables.push_back({"What is not this machine's own",
+                            {},
+                            {},
+                            fmt::format("{}; to be checked before anything moves: `grep '# as {}'`",
+                                        machines::origin_text(*origin), origin->like)});
+  }
+}
+
 void check(const CheckCommand& options) {
   if (options.keys) {
     fmt::print("{}", machines::key_reference());
@@ -98,7 +113,9 @@ void check(const CheckCommand& options) {
   if (options.profile.empty()) {
     throw std::runtime_error("which profile? a file or a shipped name, or --keys");
   }
-  const reports::MachineCheck found = check_of(machines::find_profile(options.profile), options);
+  const fs::path file = machines::find_profile(options.profile);
+  reports::MachineCheck found = check_of(file, options);
+  add_origin(file, found);
   const fs::path out(options.out);
   fs::create_directories(out);
   const fs::path page = out / "check.html";

@@ -120,10 +120,11 @@ void dig(const DigCommand& options) {
   const runs::RunFigures figures = runs::figures_of(summary);
   reports::write_dig_report(
       {report, scope::scope_page()}, run_options.log_file, machine, result, summary,
-      fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %",
+      fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %{}",
                   runs::machine_text(machine), runs::scenario_text(scenario),
                   run_options.start_strokes_m[0], run_options.start_strokes_m[1],
-                  run_options.start_strokes_m[2], options.speed * 100.0));
+                  run_options.start_strokes_m[2], options.speed * 100.0,
+                  runs::told_faults_subtitle(options.faults)));
   if (!options.summary.empty()) {
     reports::write_summary(options.summary, figures);
   }

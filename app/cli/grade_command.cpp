@@ -69,8 +69,9 @@ std::string subtitle_of(const GradeCommand& options, const machines::SimulatedDo
   const std::string seed = options.seed ? fmt::format(" | seed {}", *options.seed) : "";
   const std::string design =
       options.design.file.empty() ? "" : " | " + options.design.file.filename().string();
-  return fmt::format("{}{} | {}{}", machine.name, design,
-                     runs::scenario_text(machine, options.scenario), seed);
+  return fmt::format("{}{} | {}{}{}", machine.name, design,
+                     runs::scenario_text(machine, options.scenario), seed,
+                     runs::told_faults_subtitle(options.faults));
 }
 
 /// A figure that is of a constant speed brings it, unless another one is of a bounded speed.
@@ -109,6 +110,8 @@ void grade(const GradeCommand& told) {
   make_folder_of(run.log_file);
   make_folder_of(options.summary);
   if (!line.corners.empty()) {
+    const std::string note = machines::wall_note(line, machine.profile.grade.rounding_m);
+    fmt::print("{}{}{}", note.empty() ? "" : "note: ", note, note.empty() ? "" : "\n");
     machines::write_design(design, line);
   }
 

@@ -54,7 +54,8 @@ void check_usage(const IdentifyCommand& options) {
     need(!options.log.summary.empty(), "--summary");
     return;
   }
-  need(!options.log.logs.empty(), "--csv or --log");
+  need(!options.log.logs.empty(),
+       "--csv, or --log of a machine's log, as `graben commission` writes it,");
   need(!options.log.profile.empty(), "--profile");
   need(options.log.check || !options.log.out.empty(), "--out, or --check,");
 }

@@ -14,6 +14,7 @@
 #include "app/cli/console.hpp"
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
+#include "app/cli/program.hpp"
 #include "app/identify/file/identified_file.hpp"
 #include "app/identify/machine/log_checks.hpp"
 #include "app/identify/machine/stroke_scale.hpp"
@@ -127,7 +128,25 @@ void assert_within(const identify::PredictionScore& score, double limit_percent)
   }
 }
 
-void assert_better(const identify::JudgedFit& fit) {
+/// A profile that is as good as any is the end of it; so is a simulated machine that its own
+/// profile describes, and another one is a word away.
+std::string next_text(const IdentifyLogCommand& options) {
+  std::string logs;
+  for (const std::string& log : options.logs) {
+    logs += " " + shell_word(log);
+  }
+  const std::string profile = shell_word(options.profile);
+  const bool is_simulated =
+      fs::is_regular_file(machines::simulation_file(machines::find_profile(options.profile)));
+  return fmt::format(
+      "\nnext: graben identify --check --log{} --profile {} says how well it fits{}", logs, profile,
+      is_simulated ? fmt::format("; a simulated machine is as its profile says, another one by "
+                                 "graben commission --profile {} --hidden 3",
+                                 profile)
+                   : "");
+}
+
+void assert_better(const identify::JudgedFit& fit, const IdentifyLogCommand& options) {
   if (fit.is_better()) {
     return;
   }
@@ -142,7 +161,7 @@ void assert_better(const identify::JudgedFit& fit) {
                         100.0 * fit.before.axis[k].share(), 100.0 * fit.left_out.axis[k].share(),
                         k + 1 < kAxisCount ? "," : "");
   }
-  throw std::runtime_error(text);
+  throw std::runtime_error(fit.predicts() ? text + next_text(options) : text);
 }
 
 /// What was found goes into the profile's own text.
@@ -179,7 +198,7 @@ void identify_logs(const IdentifyLogCommand& options) {
   if (!options.strokes_measured) {
     identify::assert_scales(fit.machine);
   }
-  assert_better(fit);
+  assert_better(fit, options);
   const std::string from = source_of(logs);
   const std::string text = identify::identified_text(text_of(file), machine, fit, from);
   identify::assert_reads_back(text, options.out, fit.profile);
@@ -192,6 +211,8 @@ void identify_logs(const IdentifyLogCommand& options) {
   }
   write_whole(options.out, text);
   fmt::print("profile  {}\n", options.out);
+  fmt::print("next     graben identify --check --log {} --profile {} --before {}\n",
+             shell_word(options.logs.back()), shell_word(options.out), shell_word(options.profile));
   if (!options.report.empty()) {
     fmt::print("report   {}\n", options.report);
   }

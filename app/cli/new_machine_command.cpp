@@ -23,6 +23,7 @@
 #include "app/machines/any_machine.hpp"
 #include "app/machines/new/data_sheet.hpp"
 #include "app/machines/new/new_profile.hpp"
+#include "app/machines/new/origin.hpp"
 #include "app/machines/simulated/simulated_dozer.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
 
@@ -219,6 +220,9 @@ void new_machine(const NewMachine& options) {
   const std::string text = machines::new_profile_text(like, file.stem().string(), answers);
   write_whole(file, text);
   fmt::print("profile {}\n", options.out);
+  if (const auto origin = machines::origin_of(text)) {
+    fmt::print("        {}\n", machines::origin_text(*origin));
+  }
   const fs::path simulation_file = machines::simulation_file(file);
   const auto simulation = machines::simulation_of(after, like);
   if (simulation && (options.force || !fs::exists(simulation_file))) {

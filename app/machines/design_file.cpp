@@ -225,6 +225,39 @@ DesignHeights heights_of(const DesignLine& line, double rounding_m) {
           of(line.curvature)};
 }
 
+std::string wall_note(const DesignLine& line, double rounding_m) {
+  // As dozer_checks.cpp refuses it where it is no wall but a slope.
+  constexpr double kMostSlope = 0.6;
+  constexpr double kLeast_m = 0.01;
+  double wall_m = 0.0;
+  double at_m = 0.0;
+  double begin_m = 0.0;
+  double height_m = 0.0;
+  for (std::size_t i = 1; i < line.corners.size(); ++i) {
+    const GradePoint& from = line.corners[i - 1];
+    const GradePoint& to = line.corners[i];
+    const double rise_m = to.z_m - from.z_m;
+    if (std::abs(rise_m) <= kMostSlope * (to.x_m - from.x_m)) {
+      height_m = 0.0;
+      continue;
+    }
+    // A wall may be of several pieces, each as steep.
+    begin_m = height_m * rise_m > 0.0 ? begin_m : from.x_m;
+    height_m = height_m * rise_m > 0.0 ? height_m + rise_m : rise_m;
+    if (std::abs(height_m) > std::abs(wall_m)) {
+      wall_m = height_m;
+      at_m = 0.5 * (begin_m + to.x_m);
+    }
+  }
+  if (std::abs(wall_m) < kLeast_m) {
+    return "";
+  }
+  return fmt::format(
+      "the design has a wall of {:.3f} m at x = {:.2f} m: it is judged and graded as "
+      "rounded by grade.rounding, {} m to either side",
+      wall_m, at_m, rounding_m);
+}
+
 void set_design(DozerMachine& machine, const DesignHeights& heights) {
   machine.design = heights;
   GradeDesign& grade = machine.profile.grade;

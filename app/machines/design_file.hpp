@@ -39,6 +39,11 @@ void write_design(const std::filesystem::path& file, const DesignLine& line);
 /// curvatures are rounded alike.
 [[nodiscard]] DesignHeights heights_of(const DesignLine& line, double rounding_m);
 
+/// Where the corners have a wall, steeper than any ground that carries a dozer, which rounding
+/// makes a slope of: the highest one's place and height, and that what is graded is rounded; empty:
+/// none.
+[[nodiscard]] std::string wall_note(const DesignLine& line, double rounding_m);
+
 /// More of a slope across is refused.
 inline constexpr double kMostCross = 0.3;
 /// The same of a curvature, 1/m.

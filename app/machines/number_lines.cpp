@@ -50,6 +50,18 @@ class NumberLines {
     return numbers;
   }
 
+  /// Numbers with a decimal comma, and commas between them, are twice as many without any point.
+  static std::string comma_hint(const std::vector<std::string_view>& cells, std::size_t most) {
+    const bool has_point = std::any_of(cells.begin(), cells.end(), [](std::string_view cell) {
+      return cell.find('.') != std::string_view::npos;
+    });
+    // Only where a comma separates: cells of one line lie that far apart in its text.
+    const bool has_comma = cells.size() > 1 && *(cells[0].data() + cells[0].size()) == ',';
+    return cells.size() > most && !has_point && has_comma
+               ? ", as a decimal comma makes them of fewer; a number has a decimal point"
+               : "";
+  }
+
   std::string in_order(std::size_t number, const std::vector<std::string_view>& cells) {
     LineOfNumbers numbers = none();
     const std::size_t most = columns_.count + columns_.more;
@@ -68,8 +80,8 @@ class NumberLines {
                                                   : std::to_string(columns_.count);
     return count >= columns_.count && count <= most
                ? take_(number, numbers)
-               : fmt::format("{} number{}; allowed: {}, {}", count, count == 1 ? "" : "s", allowed,
-                             columns_.names);
+               : fmt::format("{} number{}{}; allowed: {}, {}", count, count == 1 ? "" : "s",
+                             comma_hint(cells, most), allowed, columns_.names);
   }
 
   std::string by_place(std::size_t number, const std::vector<std::string_view>& cells) {

@@ -48,6 +48,10 @@ std::string unit_hint(double value, double least, double most, const std::string
     if (other.si == std::string("m") && std::abs(value) < 100.0) {
       continue;
     }
+    // A slope of 0.8 is not one of 0.8 %.
+    if (other.name == std::string("%") && std::abs(value) < 2.0) {
+      continue;
+    }
     // Angles' own rates and accelerations are written in degrees, too.
     const bool is_its = unit == other.si || (std::string(other.si) == "rad" && unit != "rad/s" &&
                                              unit.compare(0, 4, "rad/") == 0);

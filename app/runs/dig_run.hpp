@@ -114,7 +114,7 @@ struct DigSummary {
   /// With something in the way; from 0.3 s after it let go, for 3 s.
   std::optional<Recovery> recovery;
   double approach_s = kAbsent;     ///< Until the path was reached.
-  double loop_s = kAbsent;         ///< On the path.
+  double loop_s = kAbsent;         ///< On the path; of a run that closed it.
   ExcavatorCalm calm;              ///< The tip works.
   double ringing_rms_m = kAbsent;  ///< Of the true tip's cross-track error above kRingingAbove_hz.
   double energy_per_loop_j = kAbsent;

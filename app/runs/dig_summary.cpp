@@ -116,6 +116,10 @@ DigSummary summarise(const DigResult& result) {
     calm.add(sample, {sample.tip_true_m.x(), 0.0, sample.tip_true_m.y()});
     cross_track_m.push_back(sample.cross_track_true_m);
   }
+  const bool is_closed = result.end == DigEnd::kDone;
+  if (!is_closed) {
+    summary.loop_s = kAbsent;  // Of a loop that was not closed there is no time.
+  }
   if (on_path > 0) {
     const auto count = static_cast<double>(on_path);
     summary.max_error_true_m = error_true.max();
@@ -132,7 +136,7 @@ DigSummary summarise(const DigResult& result) {
   summary.cut_m3 = result.cut_m3;
   summary.recovery = recovery(result.samples);
   summary.calm = calm.figures();
-  summary.energy_per_loop_j = summary.calm.energy_per_j(result.loops);
+  summary.energy_per_loop_j = is_closed ? summary.calm.energy_per_j(result.loops) : kAbsent;
   summary.pace = pace_of(result.samples, result.wall_s);
   return summary;
 }

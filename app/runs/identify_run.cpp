@@ -32,7 +32,7 @@ Dig dig_with(const machines::SimulatedExcavator& machine, const ExcavatorProfile
   const DigResult result = run_dig(tried, run, [](double, const std::string&) {});
   Dig dig{result.end, result.fault};
   const DigSummary summary = summarise(result);
-  if (summary.loop_s > 0.0) {
+  if (summary.max_error_true_m > 0.0) {
     dig.max_error_m = summary.max_error_true_m;
     dig.ringing_m = summary.ringing_rms_m;
     dig.loop_s = summary.loop_s;

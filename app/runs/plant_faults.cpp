@@ -340,6 +340,10 @@ std::vector<std::string> PlantFaultSchedule<Faults>::left() const {
   return texts;
 }
 
+std::string told_faults_subtitle(const std::vector<std::string>& told) {
+  return told.empty() ? "" : fmt::format(" | fault {}", fmt::join(told, ", "));
+}
+
 std::string told_faults_text(const std::vector<std::string>& told,
                              const std::vector<std::string>& left, double run_s, bool is_seen) {
   if (!left.empty()) {

@@ -56,6 +56,9 @@ class PlantFaultSchedule {
   std::vector<Planned> left_;
 };
 
+/// For a report's subtitle: " | fault boom-stroke:step=0.4@1.0"; empty where none was told.
+[[nodiscard]] std::string told_faults_subtitle(const std::vector<std::string>& told);
+
 /// After a run: a line for the terminal where faults came and the controller saw none of them,
 /// empty else. Throws std::runtime_error where one was told for later than the run's end.
 [[nodiscard]] std::string told_faults_text(const std::vector<std::string>& told,

@@ -196,6 +196,21 @@ def no_constant_speed(graben):
     assert done.returncode == 0 and "cut below it" in done.stdout and "status 0 all the same" in done.stdout, done.stdout
 
 
+def identify_says_what_next(graben):
+    """After a profile, and where none was written; and what a figure that is not there means."""
+    with tempfile.TemporaryDirectory() as name:
+        log, better = pathlib.Path(name) / "drive.log", pathlib.Path(name) / "better.toml"
+        assert call(graben, "commission", "--profile", "excavator_12t", "--log", log).returncode == 0
+        done = call(graben, "identify", "--log", log, "--profile", "excavator_12t", "--out", better)
+        assert f"next     graben identify --check --log {log} --profile {better}" in done.stdout, done
+        assert re.search(r"^boom, retract .* - ", done.stdout, re.MULTILINE) and "(-: not to be judged" in done.stdout, done
+        done = call(graben, "identify", "--log", log, "--profile", better, "--any-machine", "--out",
+                    better.with_name("none.toml"))
+        needle = f"next: graben identify --check --log {log} --profile {better} says how well it fits"
+        assert done.returncode == 1 and needle in done.stderr, done
+    refused(graben, "--log of a machine's log, as `graben commission` writes it", "identify", status=2)
+
+
 def unwritable(graben):
     with tempfile.TemporaryDirectory() as folder:
         blocked = os.path.join(folder, "file")
@@ -244,6 +259,7 @@ def main():
     bad_finds(graben)
     bad_machines(graben)
     no_constant_speed(graben)
+    identify_says_what_next(graben)
     unwritable(graben)
     interrupted(graben)
     lost_output(graben)

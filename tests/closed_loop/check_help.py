@@ -40,6 +40,27 @@ def refused(graben, needle, *arguments, status=1, text="", folder=None):
     assert not LIBRARIES.search(done.stderr), f"{arguments}: a library speaks: {done.stderr}"
 
 
+def run_answers_without_a_build():
+    """`./run X --help` says what is built, or a few words; it builds nothing."""
+    with tempfile.TemporaryDirectory() as name:
+        root = pathlib.Path(name)
+        (root / "app/cli").mkdir(parents=True)
+        shutil.copy(ROOT / "app/cli/command_table.hpp", root / "app/cli")
+        shutil.copy(ROOT / "run", root)
+        for words in (("grade", "--help"), ("-h",), ("campaign", "dig", "--help"), ("--scope", "--help")):
+            done = call(root / "run", *words)
+            assert done.returncode == 0 and "is not built yet" in done.stdout and " grade " in done.stdout, done
+            assert not (root / "build").exists(), words
+        built = root / "build/release/app/cli"
+        built.mkdir(parents=True)
+        for file in ("graben", "graben-grade"):
+            (built / file).write_text("#!/bin/sh\necho built: $*\n")
+            (built / file).chmod(0o755)
+        assert call(root / "run", "grade", "--help").stdout == "built: grade --help\n"
+        assert "is not built yet" in call(root / "run", "dig", "--help").stdout
+        assert call(root / "run", "none", "-h").stdout == "built: none -h\n"
+
+
 def commands(graben, *path):
     """Every command that some help lists, with its help."""
     said = call(graben, *path, "--help").stdout
@@ -284,6 +305,7 @@ def installed(graben, folder):
 
 def main():
     graben = pathlib.Path(sys.argv[1]).resolve()
+    run_answers_without_a_build()
     helps(graben)
     slips(graben)
     with tempfile.TemporaryDirectory() as name:

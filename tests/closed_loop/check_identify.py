@@ -183,7 +183,7 @@ def bad_files(graben, folder, train, judge):
     refused(graben, "can't be judged by what it was made of", "--csv", train, "--judge", train, "--summary", out)
     refused(graben, "can't be judged", "--csv", judge, judge, "--summary", out)
     refused(graben, "can't be written", "--csv", judge, "--summary", judge / "folder.json")
-    refused(graben, "--csv or --log is required", "--summary", out, status=2)
+    refused(graben, "--csv, or --log of a machine's log", "--summary", out, status=2)
     refused(graben, "--summary is required", "--csv", train, status=2)
     assert not out.exists()
 

@@ -295,7 +295,7 @@ def bad_files(tool, log_file, better):
     tool.refused("is of a machine with profile", "--check", "--log", log_file, "--profile", foreign)
     foreign.unlink()
     for needle, arguments in (
-            ("--csv or --log is required", ("--summary", out)),
+            ("--csv, or --log of a machine's log, as `graben commission` writes it, is required", ("--summary", out)),
             ("--profile is required", ("--log", log_file, "--out", out)),
             ("--out, or --check, is required", usual),
             ("not with", (*usual, "--out", out, "--check")),

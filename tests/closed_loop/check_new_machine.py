@@ -119,7 +119,12 @@ def from_a_data_sheet(graben, folder):
         return (tomllib.loads((folder / "mine.toml").read_text(encoding="utf-8")),
                 tomllib.loads((folder / "mine.sim.toml").read_text(encoding="utf-8")), said.stdout)
 
-    profile, simulated, _ = made("dozer_9t", ("20", "3200"))
+    profile, simulated, said = made("dozer_9t", ("20", "3200"))
+    # What is left of the 9 t machine is counted, and warned of: tracks and pumps.
+    said = " ".join(said.split())
+    assert re.search(r"of [0-9]+ values [0-9]+ stand as in dozer_9t, [0-9]+ are scaled from its own; told: 1", said), said
+    for key in ("body.track_contact", "hst.pump_displacement", "implement.pump.displacement"):
+        assert f"warning: {key}: " in said, (key, said)
     assert profile["body"]["mass"] == 20000.0 and simulated["blade"]["width"] == 3.2, profile["body"]
     assert abs(simulated["blade"]["mass"] / 950.0 - 20.0 / 8.9) < 1e-6, simulated["blade"]
     profile, simulated, _ = made("excavator_12t", ("14", "2"))
@@ -134,6 +139,8 @@ def from_a_data_sheet(graben, folder):
 
 def by_name(graben, folder):
     """Answers by their keys, in any order: a second pump's among them, which an answer before brings."""
+    done = make(graben, folder, "dozer_9t", ["hst.gear_ratio = 60"], "--force")
+    assert done.returncode == 0 and tomllib.loads((folder / "mine.toml").read_text())["hst"]["gear_ratio"] == 60.0
     told = ["pump[1].relief = 343", "operating_weight = 14", "", "pump_count = 2", "bucket.capacity=0.6"]
     done = make(graben, folder, "excavator_12t", told, "--force")
     assert done.returncode == 0, done.stderr
@@ -141,7 +148,8 @@ def by_name(graben, folder):
     assert profile["pump"][1]["relief"] == 343e5 and profile["bucket"]["capacity"] == 0.6, profile["pump"]
     assert profile["body"]["boom_foot"] == [0.14, 1.424], profile["body"]
     assert "\npump_count: " in done.stdout and "[1]: 2\n" in done.stdout, done.stdout[:500]
-    for answers, needle in ((["pump_count = 1", "pump[1].relief = 343"], "pump[1].relief: is not asked of such a machine"),
+    for answers, needle in ((["pump[0].relief = 34.3"], "pump[0].relief: 34.3 bar; in MPa? then it is 343 bar"),
+                            (["pump_count = 1", "pump[1].relief = 343"], "pump[1].relief: is not asked of such a machine"),
                             (["pump_count = 1", "343"], "'343': KEY = ANSWER is wanted"),
                             (["pump_count = 1", "pump_count = 2"], "pump_count: is answered twice"),
                             ([*[""] * 300, "7"], "'7', line 301: more answers than questions")):

@@ -87,13 +87,18 @@ const std::vector<const char*> kAskedOfDozer = {"body.mass_centre_height",
                                                 "hst.engine_range",
                                                 "hst.pump_displacement",
                                                 "hst.motor_displacement",
+                                                "hst.gear_ratio",
                                                 "hst.sprocket_radius",
                                                 "safety.idle"};
 
-const std::map<std::string, WorkshopUnit> kUnits = {
-    {"m", {"mm", 1e-3}},  {"rad", {"deg", kPi / 180.0}},  {"rad/s", {"rpm", kPi / 30.0}},
-    {"Pa", {"bar", 1e5}}, {"m3/s", {"L/min", 1.0 / 6e4}}, {"m3/rev", {"cm3/rev", 1e-6}},
-    {"m3", {"m3", 1.0}}};
+const std::map<std::string, WorkshopUnit> kUnits = {{"m", {"mm", 1e-3}},
+                                                    {"rad", {"deg", kPi / 180.0}},
+                                                    {"rad/s", {"rpm", kPi / 30.0}},
+                                                    {"Pa", {"bar", 1e5}},
+                                                    {"m3/s", {"L/min", 1.0 / 6e4}},
+                                                    {"m3/rev", {"cm3/rev", 1e-6}},
+                                                    {"m3", {"m3", 1.0}},
+                                                    {"", {"ratio", 1.0}}};
 
 std::vector<double> numbers_of(const toml::node& node) {
   std::vector<double> numbers;
@@ -236,6 +241,13 @@ void assert_fits(const ProfileDocument& like, const ProfileQuestion& question,
       text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", 1e3 * number);
     }
     throw std::runtime_error(fmt::format("in metres? then it is {} mm", text));
+  }
+  // Nor has any so much less pressure; but a MPa has 10 bar.
+  constexpr double kNoSuchPressure = 0.2;
+  if (question.unit.name == std::string_view("bar") && told > 0.0 &&
+      told < kNoSuchPressure * norm_of(question.before)) {
+    throw std::runtime_error(fmt::format("{:.6g} bar; in MPa? then it is {:.6g} bar",
+                                         numbers.front(), 10.0 * numbers.front()));
   }
   const std::string& key = question.key;
   const std::size_t rod = key.rfind(".rod");

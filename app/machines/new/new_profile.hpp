@@ -37,7 +37,8 @@ using ProfileAnswers = std::map<std::string, std::vector<double>>;
 [[nodiscard]] std::vector<ProfileQuestion> profile_questions(const ProfileDocument& like);
 
 /// Throws std::runtime_error, in the question's unit, where an answer is no length in mm but one in
-/// metres, or a cylinder's rod is not thinner than its bore, as `answers` or else `like` have it.
+/// metres, no pressure in bar but one in MPa, or a cylinder's rod is not thinner than its bore, as
+/// `answers` or else `like` have it.
 void assert_fits(const ProfileDocument& like, const ProfileQuestion& question,
                  const std::vector<double>& numbers, const ProfileAnswers& answers);
 

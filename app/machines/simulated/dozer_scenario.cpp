@@ -16,6 +16,8 @@ namespace {
 
 /// The simulated ground is level at z = 0, and a blade only cuts.
 constexpr double kFill_m = 0.02;
+/// So that what is refused shows it in the digits that are printed.
+constexpr double kRounding_m = 1e-4;
 
 /// In a soil of which nobody knows how hard it is: what a first pass tries.
 constexpr double kFirstPass_m = 0.08;
@@ -31,12 +33,28 @@ void demand_something_to_cut(const SimulatedDozer& machine) {
     const double height_m =
         design.at(step * kStep_m).height_m +
         machine.profile.tilt.half_width_m() * std::abs(design.cross_at(step * kStep_m).slope);
-    if (height_m > kFill_m) {
+    if (height_m > kFill_m + kRounding_m) {
       throw std::runtime_error(fmt::format(
-          "the design is {:.3f} m above the simulated ground at x = {:.2f} m; allowed: at "
+          "the design is {:.4f} m above the simulated ground at x = {:.2f} m; allowed: at "
           "most {} m, as a blade only cuts",
           height_m, step * kStep_m, kFill_m));
     }
+  }
+}
+
+/// The ground before the design's begin stays: what is deeper there is a wall that the machine
+/// stands above, and then drives down.
+void demand_a_way_in(const SimulatedDozer& machine) {
+  const GradeProfile design(machine.profile.grade);
+  const double begin_m = std::max(0.0, machine.profile.grade.begin_m());
+  const double depth_m = -design.at(begin_m).height_m;
+  const double reach_m = -machine.profile.blade.edge_min_m;
+  if (depth_m > reach_m) {
+    throw std::runtime_error(fmt::format(
+        "the design begins {:.3f} m below the simulated ground at x = {:.2f} m, in no number of "
+        "passes to be reached from there; allowed: at most the blade's reach, {} m, or a ramp "
+        "that leads down from the ground",
+        depth_m, begin_m, reach_m));
   }
 }
 
@@ -44,6 +62,7 @@ void demand_something_to_cut(const SimulatedDozer& machine) {
 
 SimulatedDozer arranged(SimulatedDozer machine, const DozerScenario& scenario) {
   demand_something_to_cut(machine);
+  demand_a_way_in(machine);
   if (scenario.errors) {
     machine.plant = draw_dozer(machine, scenario.seed);
   }

@@ -229,6 +229,10 @@ void expect_plant(Warnings& warnings, const machines::SimulatedDozer& machine) {
   warnings.expect("blade.reach", plant.blade_reach_m / profile.blade.cutting_edge_m, 0.4, 1.1,
                   fmt::format("mass centre {:g} m from the pivot, of the cutting edge's distance",
                               plant.blade_reach_m));
+  const double size_m = std::pow(1e-3 * profile.body.mass_kg, 0.29);  // As in likely_dozer.cpp.
+  warnings.expect(
+      "blade.width", plant.blade_shape.width_m, 1.15 * size_m, 2.2 * size_m,
+      fmt::format("width of the blade of a machine of {:.3g} t", 1e-3 * profile.body.mass_kg), "m");
   const double length_m = profile.body.track_contact_m;
   warnings.expect(
       "body.pitch_inertia", plant.pitch_inertia_kgm2 / (profile.body.mass_kg * length_m * length_m),
@@ -239,6 +243,10 @@ void expect_plant(Warnings& warnings, const machines::SimulatedDozer& machine) {
                   fmt::format("{:g} N, of the cylinders' force at relief", plant.coulomb_n), "%");
   warnings.expect("implement.relief", force_n / (profile.body.mass_kg * plant.gravity_mps2), 0.8,
                   20.0, "cylinders' force at relief, over the machine's weight");
+  warnings.expect("implement.relief", 1e-6 * plant.implement_relief_pa, 12.0, 40.0,
+                  "relief of the implement's pump", "MPa");
+  warnings.expect("hst.relief", 1e-6 * plant.hst_relief_pa, 25.0, 65.0,
+                  "relief of the transmission's lines", "MPa");
   warnings.add_if(plant.charge_pa > 0.2 * plant.hst_relief_pa, "hst.charge",
                   fmt::format("{:.1f} MPa of charge under a relief of {:.1f} MPa; usual: at most a "
                               "fifth",

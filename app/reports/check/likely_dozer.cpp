@@ -7,6 +7,48 @@
 namespace graben::reports {
 namespace {
 
+/// Lengths of an undercarriage grow with this power of the mass, from a 4 t to a 112 t dozer of the
+/// catalogues: 1.69 to 4.53 m of track contact.
+constexpr double kLengthByMass = 0.29;
+
+/// Tracks, drive and pumps of a machine of another mass: what is left of the profile that another
+/// one was made from.
+void expect_class(Warnings& warnings, const DozerProfile& profile) {
+  const DozerBody& body = profile.body;
+  const HstProfile& hst = profile.hst;
+  const double mass_t = 1e-3 * body.mass_kg;
+  const double size_m = std::pow(mass_t, kLengthByMass);
+  const std::string under = fmt::format("of a machine of {:.3g} t", mass_t);
+  const std::string other = "; tracks of a machine of another mass?";
+  warnings.expect("body.track_contact", body.track_contact_m, 1.055 * size_m, 1.75 * size_m,
+                  fmt::format("track contact {}{}", under, other), "m");
+  warnings.expect("body.half_gauge", body.half_gauge_m, 0.31 * size_m, 0.6 * size_m,
+                  fmt::format("half gauge {}{}", under, other), "m");
+  const double turns_ps = hst.engine_radps / kTwoPi;
+  const double travel_lpm = 6e4 * 2.0 * hst.pump_m3prev * turns_ps;
+  warnings.expect("hst.pump_displacement", travel_lpm / mass_t, 16.0, 80.0,
+                  fmt::format("{:.0f} L/min of both travel pumps, by its mass; those of a machine "
+                              "of another mass?",
+                              travel_lpm),
+                  "L/min/t");
+  // Of both tracks at the usual relief of a transmission, which no profile has.
+  constexpr double kRelief_pa = 42e6;
+  const double pull_n =
+      2.0 * hst.motor_m3prev / kTwoPi * kRelief_pa * hst.gear_ratio / hst.sprocket_radius_m;
+  constexpr double kGravity_mps2 = 9.80665;
+  warnings.expect("hst.motor_displacement", pull_n / (kGravity_mps2 * body.mass_kg), 0.9, 5.0,
+                  fmt::format("{:.0f} kN of pull at 42 MPa by motor, hst.gear_ratio and sprocket, "
+                              "over the machine's weight",
+                              1e-3 * pull_n));
+  const double blade_lpm = 6e4 * profile.implement.displacement_m3prev * turns_ps;
+  const double area_m2 = std::pow(mass_t, 2.0 / 3.0);
+  warnings.expect("implement.pump.displacement", blade_lpm, 14.0 * area_m2, 70.0 * area_m2,
+                  fmt::format("flow of the implement's pump {}; the pump of a machine of another "
+                              "mass?",
+                              under),
+                  "L/min");
+}
+
 void expect_undercarriage(Warnings& warnings, const DozerProfile& profile) {
   const DozerBody& body = profile.body;
   const double contact_m = body.track_contact_m;
@@ -69,6 +111,7 @@ void expect_drive(Warnings& warnings, const DozerProfile& profile) {
 }  // namespace
 
 void expect_likely(Warnings& warnings, const DozerProfile& profile) {
+  expect_class(warnings, profile);
   expect_undercarriage(warnings, profile);
   expect_blade(warnings, profile);
   expect_drive(warnings, profile);

@@ -88,6 +88,10 @@ void expect_body(Warnings& warnings, const ExcavatorGeometry& geometry) {
   if (!body.known()) {
     return;
   }
+  // A boom bends away from what it digs; a straight one has its bend at its foot.
+  warnings.add_if(body.boom_bend_m.y() < -0.03 * boom_m, "boom.bend",
+                  fmt::format("{:g} m below the line of boom foot and arm pin; usual: above it",
+                              -body.boom_bend_m.y()));
   warnings.expect("bucket.width", body.bucket_width_m / bucket_m, 0.2, 2.5,
                   fmt::format("width of {:g} m on a bucket of {:g} m pin to tip, a share of it",
                               body.bucket_width_m, bucket_m));

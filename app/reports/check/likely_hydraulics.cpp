@@ -15,6 +15,24 @@ namespace {
 using machines::kAxisNames;
 using machines::kDriveNames;
 
+/// Of two pumps the one of the arm drives the swing, the other one boom and bucket: so the boom is
+/// not slowed by what digs or swings.
+void expect_pump_of_drives(Warnings& warnings, const ExcavatorProfile& profile) {
+  if (profile.pump_count != 2) {
+    return;
+  }
+  const auto& spool = profile.valve.spool;
+  const auto expect = [&](bool usual, const char* drive, const char* text) {
+    warnings.add_if(!usual, fmt::format("valve.pump.{}", drive), text);
+  };
+  expect(spool[kBoom].pump != spool[kArm].pump, "boom",
+         "on the arm's pump; usual of two pumps: the other one");
+  expect(spool[kBucket].pump == spool[kBoom].pump || spool[kBoom].pump == spool[kArm].pump,
+         "bucket", "on the arm's pump; usual of two pumps: on the boom's");
+  expect(!profile.has_swing() || spool[kSwing].pump == spool[kArm].pump, "swing",
+         "on the boom's pump; usual of two pumps: on the arm's");
+}
+
 /// How far the links out level weigh on the boom cylinders, and what each is by itself.
 void expect_oil_masses(Warnings& warnings, const ExcavatorProfile& profile) {
   constexpr std::array<Band, kAxisCount> kUsual_kgpm3 = {
@@ -140,6 +158,15 @@ void expect_all_pumps(Warnings& warnings, const ExcavatorProfile& profile) {
     const PumpProfile& pump = profile.pump[j];
     flow_m3ps += full_flow_m3ps(pump);
     power_w += full_flow_m3ps(pump) * pump.relief_pa;
+    const std::string at = fmt::format("pump[{}].", j);
+    warnings.expect(at + "relief", 1e-6 * pump.relief_pa, 12.0, 60.0,
+                    fmt::format("relief of the pump's line{}",
+                                pump.relief_pa < 6e6 ? "; in MPa where bar was meant?" : ""),
+                    "MPa");
+    if (pump.regulator.kind == PumpKind::kLoadSensing) {
+      warnings.expect(at + "load_sensing.margin", 1e-6 * pump.regulator.margin_pa, 1.0, 4.0,
+                      "pressure that the pump keeps over the highest load", "MPa");
+    }
     const auto* first = profile.valve.spool.begin();
     warnings.add_if(
         std::none_of(first, first + profile.drive_count,
@@ -167,6 +194,7 @@ void expect_likely_hydraulics(Warnings& warnings, const ExcavatorProfile& profil
   expect_bypass(warnings, profile);
   expect_spools(warnings, profile);
   expect_all_pumps(warnings, profile);
+  expect_pump_of_drives(warnings, profile);
 }
 
 }  // namespace graben::reports

@@ -23,6 +23,22 @@ double without_sign_of_0(double value, double step) {
   return std::round(value / step) * step + 0.0;
 }
 
+/// Whether a row that is shown has a figure that is not there.
+bool has_open(const std::vector<ScoreColumn>& columns) {
+  for (std::size_t k = 0; k < kAxisCount; ++k) {
+    for (const bool extends : {true, false}) {
+      for (const ScoreColumn& column : columns) {
+        const SideScore& side = column.score->axis[k].side(extends);
+        const bool is_shown = columns.front().score->axis[k].side(extends).moving_s > 0.0;
+        if (is_shown && !(side.has_ratio && side.has_delay)) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
 std::string side_row(const std::vector<ScoreColumn>& columns, std::size_t k, bool extends) {
   std::string row = fmt::format(
       "{:<16}", fmt::format("{}, {}", kAxisTexts[k], machines::kSideNames[extends ? 0 : 1]));
@@ -77,7 +93,13 @@ std::string prediction_table(const std::vector<ScoreColumn>& columns) {
       }
     }
   }
-  return text + "(speed: measured over predicted, less 1; ms: later than predicted)\n";
+  text += "(speed: measured over predicted, less 1; ms: later than predicted)\n";
+  if (has_open(columns)) {
+    text +=
+        "(-: not to be judged: no steady speed above 40 mm/s for long enough, or of ms no start or "
+        "stop that shows it)\n";
+  }
+  return text;
 }
 
 std::string prediction_json(const std::vector<ScoreColumn>& columns) {

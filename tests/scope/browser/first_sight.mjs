@@ -141,6 +141,26 @@ async function first_screen() {
   await server.stop();
 }
 
+/// On a narrow page keys and scale stand below the picture, and what is written in it ends with it.
+async function keys_beside_the_machine() {
+  const said = [];
+  for (const [width, height] of [[768, 1024], [390, 844]]) {
+    const page = await open_page(browser, url_of('dig'), {width, height});
+    await page.locator('.scene-corner').waitFor();
+    await rest(300);
+    const [host, picture, words, corner] = await Promise.all(['', ' canvas', ' .scene-labels', ' .scene-corner']
+      .map((name) => page.locator(`.scene-host${name}`).boundingBox()));
+    const end = (box) => box.y + box.height;
+    const all = `${width}: ${JSON.stringify({host, picture, words, corner})}`;
+    assert.ok(corner.y >= end(picture) - 0.5 && end(corner) <= end(host) + 0.5 && picture.height >= 200, all);
+    assert.ok(end(words) <= end(picture) + 0.5, all);
+    said.push(`${width}: ${Math.round(picture.height)} px`);
+    clean(page);
+    await page.context().close();
+  }
+  return said.join(', ');
+}
+
 /// A film has the machine, its mode and its lambda at every size, and nothing to press.
 async function film() {
   const server = await scope('--log', join(out, 'dig.log'));
@@ -199,7 +219,7 @@ async function tour() {
   return `fault after ${took_s.toFixed(1)} s`;
 }
 
-const scenarios = {first_sight, plan_draws_itself, first_screen, film, tour};
+const scenarios = {first_sight, plan_draws_itself, first_screen, keys_beside_the_machine, film, tour};
 const failed = await run_scenarios(join(out, 'failed'), browser, only === undefined ? scenarios
   : {[only]: scenarios[only]});
 await browser.close();

@@ -203,6 +203,17 @@ std::vector<GradePoint> corners(double last_m) {
 }
 
 /// The machine with it: in both ends, in the hash, as long as it is.
+/// Rounding makes a slope of a wall, which is then no more what the file has: that is said.
+TEST(a_wall_is_said_with_its_place) {
+  const std::vector<GradePoint> stepped = {{0.0, 0.0},   {4.0, 0.0},  {4.01, -0.08}, {4.02, -0.15},
+                                           {9.0, -0.15}, {9.1, -0.1}, {27.0, 0.0}};
+  assert_string_equal(machines::wall_note({stepped}, 0.3).c_str(),
+                      "the design has a wall of -0.150 m at x = 4.01 m: it is judged and graded as "
+                      "rounded by grade.rounding, 0.3 m to either side");
+  const std::vector<GradePoint> ramp = {{0.0, 0.0}, {4.0, 0.0}, {5.0, -0.6}, {27.0, -0.6}};
+  assert_string_equal(machines::wall_note({ramp}, 0.3).c_str(), "");
+}
+
 TEST(a_machine_takes_a_design) {
   const machines::SimulatedDozer machine =
       machines::with_design(test::dozer(), corners(-0.2), 0.3, "x");

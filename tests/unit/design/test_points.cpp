@@ -133,6 +133,8 @@ TEST(a_header_says_the_columns) {
 TEST(what_only_looks_like_a_number_is_named) {
   assert_true(has(refusal("1000,5;2000,5;50,1\n"), "line 1: '1000,5' has a decimal comma"));
   assert_true(has(refusal("1000,5 2000,5 50,1\n"), "two words between commas"));
+  assert_true(has(refusal("1000,5,2000,5,50,1\n"), "line 1: 6 numbers, as a decimal comma makes"));
+  assert_true(has(refusal("1000.5,2000.5,50.1,7\n"), "line 1: 4 numbers; allowed: 3"));
   assert_true(has(refusal("1 2 \xE2\x88\x92"
                           "3\n"),
                   "(U+2212), a typographic minus"));

@@ -64,6 +64,28 @@ TEST(a_design_above_the_ground_is_refused) {
                        "above the simulated ground at x = 2.");
 }
 
+/// Its figures differ where it is refused, however little it is.
+TEST(a_design_that_is_a_little_above_the_ground_says_by_how_much) {
+  SimulatedDozer machine = nominal();
+  machine.profile.grade.plane_height_m = 0.0204;
+  test::expect_refusal([&] { return arranged(machine, {}); },
+                       "0.0204 m above the simulated ground at x = 0.00 m; allowed: at most 0.02");
+  machine.profile.grade.plane_height_m = 0.02 + 1e-9;
+  assert_string_equal(test::refusal_of([&] { return arranged(machine, {}); }).c_str(), "");
+}
+
+/// A plane two metres down is reached from nowhere: it ended in fault 43 once the pass had begun.
+TEST(a_design_that_begins_below_the_blades_reach_is_refused) {
+  SimulatedDozer machine = nominal();
+  machine.profile.grade.plane_height_m = -2.0;
+  test::expect_refusal([&] { return arranged(machine, {}); },
+                       "begins 2.000 m below the simulated ground at x = 0.00 m");
+  test::expect_refusal([&] { return arranged(machine, {}); },
+                       "allowed: at most the blade's reach, 0.38 m");
+  machine.profile.grade.plane_height_m = -0.38;
+  assert_string_equal(test::refusal_of([&] { return arranged(machine, {}); }).c_str(), "");
+}
+
 TEST(an_engine_out_of_range_is_refused) {
   for (const double radps : {94.2, 230.4}) {
     DozerScenario scenario;

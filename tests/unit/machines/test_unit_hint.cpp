@@ -28,6 +28,8 @@ TEST(a_number_in_the_unit_of_a_data_sheet) {
       {119.0, 1e-6, 0.01, "m3/rev", "; in cm3/rev? then it is 0.000119 m3/rev"},
       {-45.0, -7.0, 7.0, "rad", "; in degrees? then it is -0.7854 rad"},
       {95.0, 0.0, 1.0, "", "; in %? then it is 0.95"},
+      {0.8, -0.3, 0.3, "", ""},
+      {30.0, -0.3, 0.3, "", "; in %? then it is 0.3"},
       {38.0, 1e6, 1e8, "Pa", "; in bar? then it is 3.8e+06 Pa; or in MPa: 3.8e+07"},
       {99.0, -30.0, 30.0, "m", ""},
       {0.0, 0.1, 30.0, "m", ""},

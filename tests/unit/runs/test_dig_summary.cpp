@@ -47,6 +47,19 @@ double figure(const RunFigures& figures, const std::string& name) {
   return kAbsent;
 }
 
+/// A loop that was not closed has no time, and no energy of its own.
+TEST(a_stopped_run_has_no_figures_of_a_whole_loop) {
+  DigResult result = made();
+  assert_true(std::isfinite(summarise(result).loop_s));
+  for (const DigEnd end : {DigEnd::kFault, DigEnd::kLoopNotClosed, DigEnd::kPathNotReached}) {
+    result.end = end;
+    const DigSummary summary = summarise(result);
+    assert_true(std::isnan(summary.loop_s));
+    assert_true(std::isnan(summary.energy_per_loop_j));
+    assert_true(std::isfinite(summary.max_error_true_m));
+  }
+}
+
 TEST(figures_are_of_the_time_on_the_path) {
   const RunFigures figures = figures_of(summarise(made()));
   assert_near(figure(figures, "lambda_variation_ps"), 0.0, 0.0);

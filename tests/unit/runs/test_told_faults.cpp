@@ -220,6 +220,13 @@ TEST(a_fault_stops_a_run_in_memory) {
              "\nknown: blade-spool:held"));
 }
 
+/// For the card of the report's page, which is read without the command line.
+TEST(what_was_broken_is_named) {
+  assert_string_equal(told_faults_subtitle({}).c_str(), "");
+  assert_string_equal(told_faults_subtitle({"engine:runs=0@1.0", "boom-stroke:frozen@2"}).c_str(),
+                      " | fault engine:runs=0@1.0, boom-stroke:frozen@2");
+}
+
 TEST(a_run_is_given_up_when_told) {
   const machines::SimulatedDozer dozer =
       machines::load_simulated_dozer(machines::find_profile("dozer_9t"));

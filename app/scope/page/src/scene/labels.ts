@@ -23,6 +23,7 @@ export class Labels {
   constructor() {
     Object.assign(this.node.style, {
       position: 'absolute', inset: '0', overflow: 'hidden', pointerEvents: 'none'});
+    this.node.className = 'scene-labels';
     this.node.setAttribute('aria-hidden', 'true');
   }
 

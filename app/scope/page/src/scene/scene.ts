@@ -65,6 +65,7 @@ class DrawnScene implements SceneView {
       host.style.position = 'relative';
     }
     host.append(element, this.labels.node, this.corner.node, this.note);
+    new ResizeObserver(() => this.resize()).observe(element);
     this.eye = new ViewCamera(camera, element, () => this.draw_soon());
     element.addEventListener('webglcontextrestored', this.draw_soon);
     this.setTheme(false);
@@ -116,8 +117,11 @@ class DrawnScene implements SceneView {
   }
 
   resize(): void {
-    this.width = Math.max(this.host.clientWidth, 1);
-    this.height = Math.max(this.host.clientHeight, 1);
+    // On a narrow page the corner has a place of its own below the picture.
+    const {element} = this.canvas;
+    this.width = Math.max(element.clientWidth, 1);
+    this.height = Math.max(element.clientHeight, 1);
+    Object.assign(this.labels.node.style, {bottom: 'auto', height: `${this.height}px`});
     this.canvas.resize(this.width, this.height);
     this.eye.resize(this.width, this.height);
     this.draw_soon();
