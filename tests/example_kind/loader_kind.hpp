@@ -62,6 +62,7 @@ struct LoaderKind {
   using Controller = LoaderController;
   using Receiver = MessageReceiver<ReceptionOf<kLoaderReceives>>;
   using Transmitter = MessageTransmitter<TransmissionOf<kLoaderSends>>;
+  struct Learnt {};
   struct MemoryAccess;
   using Ecu = ecu::EcuNode<LoaderKind>;
   struct Machine : LoaderProfile {
