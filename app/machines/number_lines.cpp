@@ -29,6 +29,7 @@ class NumberLines {
     const bool is_first = !any_;
     any_ = true;
     if (is_first && columns_.header && is_header(cells)) {
+      header_cells_ = cells.size();
       return columns_.header(cells, cell_);
     }
     return cell_.empty() ? in_order(number, cells) : by_place(number, cells);
@@ -84,7 +85,23 @@ class NumberLines {
                              comma_hint(cells, most), allowed, columns_.names);
   }
 
+  /// Cells beyond those that are named are passed over; but where all are numbers and none has a
+  /// point, more than a header names, or two for each of those that are told, are halves of
+  /// numbers.
+  [[nodiscard]] bool has_halves(const std::vector<std::string_view>& cells) const {
+    const std::size_t told = *std::max_element(cell_.begin(), cell_.end()) + 1;
+    const bool is_more =
+        header_cells_ > 0 ? cells.size() > header_cells_ : cells.size() >= told + cell_.size();
+    return is_more && !comma_hint(cells, 1).empty() &&
+           std::all_of(cells.begin(), cells.end(),
+                       [](std::string_view cell) { return number_in(cell).has_value(); });
+  }
+
   std::string by_place(std::size_t number, const std::vector<std::string_view>& cells) {
+    if (has_halves(cells)) {
+      return fmt::format("{} numbers{}; allowed: {}", cells.size(), comma_hint(cells, 1),
+                         columns_.names);
+    }
     LineOfNumbers numbers = none();
     for (std::size_t i = 0; i < cell_.size(); ++i) {
       const std::string_view cell = cell_[i] < cells.size() ? cells[cell_[i]] : std::string_view();
@@ -101,6 +118,7 @@ class NumberLines {
   const Columns& columns_;
   const TakeNumbers& take_;
   CellOfNumber cell_;
+  std::size_t header_cells_ = 0;  ///< Of the first line, where that has names.
   bool any_ = false;
 };
 

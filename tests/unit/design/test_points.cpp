@@ -134,6 +134,21 @@ TEST(what_only_looks_like_a_number_is_named) {
   assert_true(has(refusal("1000,5;2000,5;50,1\n"), "line 1: '1000,5' has a decimal comma"));
   assert_true(has(refusal("1000,5 2000,5 50,1\n"), "two words between commas"));
   assert_true(has(refusal("1000,5,2000,5,50,1\n"), "line 1: 6 numbers, as a decimal comma makes"));
+  // Cells beyond those that are named are passed over, and these are no such cells.
+  const auto halves = [](const char* text, const char* columns) {
+    return has(test::refusal_of([&] { static_cast<void>(read_as(text, columns)); }),
+               " numbers, as a decimal comma makes");
+  };
+  assert_true(halves("1,2000,5,1000,5,50,1\n", "PNEZD"));
+  assert_true(halves("1,2000,5,1000,5,50,1,7\n", "PNEZD"));
+  assert_true(halves("1000,5,2000,5,50,1\n", "ENZ"));
+  assert_true(has(refusal("P,N,E,Z\n1,2000,5,1000,5,50,1\n"), "line 2: 7 numbers, as a decimal"));
+  assert_true(has(refusal("N,E,Z\n2000,1000,5,50\n"), "line 2: 4 numbers, as a decimal"));
+  assert_near(
+      (last_of(read_as("2000,1000,50,1,2\n2000,1040,50,1,2\n2020,1040,50,1,2\n", "NEZ")) - kFar)
+          .head<2>()
+          .norm(),
+      0.0, 1e-4);
   assert_true(has(refusal("1000.5,2000.5,50.1,7\n"), "line 1: 4 numbers; allowed: 3"));
   assert_true(has(refusal("1 2 \xE2\x88\x92"
                           "3\n"),
