@@ -47,6 +47,9 @@ systemctl start systemd-networkd
 wait_until 10 is_active || fail 'not active once the interface is there'
 ip -details link show can0 >"$OUT/link"
 note came
+# What it sends, on its own side: the emulated controller that receives has room for four frames and a half, and a
+# cycle has five, which come at once here.
+record can0
 
 systemctl restart "$unit"
 wait_until 5 ecu_sends || fail 'no frames'
