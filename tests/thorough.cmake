@@ -57,7 +57,7 @@ graben_thorough("unit_identify_*, unit_commission" cli_identify cli_identify_log
 graben_thorough("hil_controllers, hil_faults" hil_dig hil_grade hil_autodig)
 graben_thorough("unit_paused_dig in simulated time" hil_paused_dig canary_hil_paused_dig)
 graben_thorough("fault_cases_* in simulated time" hil_plausible canary_hil_plausible hil_plausible_every)
-graben_thorough("hours_few in simulated time" hil_hours)
+graben_thorough("hours_few" hours hil_hours)
 graben_thorough("timing_counts: instructions of a cycle" hil_timing canary_hil_timing)
 graben_thorough("unit_ecu_store: writes dropped, halved, reordered" hil_power_cuts)
 graben_thorough("unit_operate_*" hil_operate hil_commission)
