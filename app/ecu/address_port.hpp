@@ -35,6 +35,7 @@ class AddressPort : public CanPort {
   /// The cycle that hears of the loss still sends its frames: they are neutral.
   [[nodiscard]] bool send(const CanFrame& frame) override { return !is_shut_ && port_.send(frame); }
 
+  [[nodiscard]] bool is_lost() const { return claim_.is_lost(); }
   /// Before a cycle.
   void begin(TimeUs now_us) { now_us_ = now_us; }
   /// After it. What the bus does not take is sent again in the next one.

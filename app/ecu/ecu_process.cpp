@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
@@ -165,8 +166,9 @@ std::uint32_t small(std::uint64_t count) {
 /// What others on the bus ask for beside control, and what is stored for it.
 class Workshop {
  public:
-  Workshop(AddressPort& address, DiagnosticPort& port, ProcessStore* store)
+  Workshop(AddressPort& address, LastFrames& last, DiagnosticPort& port, ProcessStore* store)
       : address_(address),
+        last_(last),
         port_(port),
         rings_(store == nullptr ? nullptr : &store->rings()),
         recorder_(rings_) {
@@ -186,6 +188,10 @@ class Workshop {
                                            frozen_of(recorder_.last()), recorder_.can_forget()});
     recorder_.forget(cleared, now_us);
     keep_learnt(ecu, now_us);
+    if (address_.is_lost()) {
+      // What ends the process is not to send under another's address.
+      last_.put(std::array<CanFrame, 1>{}, 0);
+    }
     address_.finish();
   }
 
@@ -200,6 +206,7 @@ class Workshop {
   }
 
   AddressPort& address_;
+  LastFrames& last_;
   DiagnosticPort& port_;
   FaultRings* rings_;
   FaultRecorder recorder_;
@@ -317,7 +324,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   EmergencyNote note(manager, status);
   AddressNote address_note(manager, claim);
 
-  Workshop workshop(address, port, store.get());
+  Workshop workshop(address, last, port, store.get());
   cycle_until_stopped(ecu, clock, watchdog, mark, note, address_note, workshop, options.real_time);
 
   manager.stopping();
