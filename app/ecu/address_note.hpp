@@ -14,7 +14,8 @@ class AddressNote {
   AddressNote(ServiceNotify& manager, const j1939::AddressClaim& claim)
       : manager_(manager), claim_(claim) {}
 
-  /// To be called each cycle. Allocates nothing, and writes where nothing moves any more.
+  /// To be called each cycle. Allocates nothing, and writes once: in the cycle that stops the
+  /// machine, behind its frames.
   void look();
 
  private:

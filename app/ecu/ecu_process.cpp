@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
@@ -166,9 +165,8 @@ std::uint32_t small(std::uint64_t count) {
 /// What others on the bus ask for beside control, and what is stored for it.
 class Workshop {
  public:
-  Workshop(AddressPort& address, LastFrames& last, DiagnosticPort& port, ProcessStore* store)
+  Workshop(AddressPort& address, DiagnosticPort& port, ProcessStore* store)
       : address_(address),
-        last_(last),
         port_(port),
         rings_(store == nullptr ? nullptr : &store->rings()),
         recorder_(rings_) {
@@ -188,10 +186,6 @@ class Workshop {
                                            frozen_of(recorder_.last()), recorder_.can_forget()});
     recorder_.forget(cleared, now_us);
     keep_learnt(ecu, now_us);
-    if (address_.is_lost()) {
-      // What ends the process is not to send under another's address.
-      last_.put(std::array<CanFrame, 1>{}, 0);
-    }
     address_.finish();
   }
 
@@ -206,7 +200,6 @@ class Workshop {
   }
 
   AddressPort& address_;
-  LastFrames& last_;
   DiagnosticPort& port_;
   FaultRings* rings_;
   FaultRecorder recorder_;
@@ -292,7 +285,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   const auto own_ids = Kind::Transmitter::ids();
   j1939::Diagnostics diagnostics(kOwnAddress, own_ids.data(), own_ids.size());
   j1939::AddressClaim claim(kOwnAddress, options.name ? *options.name : found_name(kMachineId));
-  AddressPort address(buses.group, claim);
+  AddressPort address(buses.group, claim, last);
   DiagnosticPort port(address, diagnostics);
   EcuNode<Kind> ecu(setup, profile_hash, port, &table);
   CyclicClock clock(kPeriod_us);
@@ -324,7 +317,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   EmergencyNote note(manager, status);
   AddressNote address_note(manager, claim);
 
-  Workshop workshop(address, last, port, store.get());
+  Workshop workshop(address, port, store.get());
   cycle_until_stopped(ecu, clock, watchdog, mark, note, address_note, workshop, options.real_time);
 
   manager.stopping();

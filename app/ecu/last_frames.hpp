@@ -36,12 +36,18 @@ class LastFrames {
     }
     current_.store(other, std::memory_order_release);
   }
+  /// None from now on, whatever is put.
+  void end() { has_ended_.store(true, std::memory_order_release); }
   [[nodiscard]] const Frames& get() const {
-    return slot_[current_.load(std::memory_order_acquire)];
+    return has_ended_.load(std::memory_order_acquire)
+               ? none_
+               : slot_[current_.load(std::memory_order_acquire)];
   }
 
  private:
   std::array<Frames, 2> slot_{};
+  Frames none_;
+  std::atomic<bool> has_ended_{false};
   std::atomic<unsigned> current_{0};
   static_assert(std::atomic<unsigned>::is_always_lock_free, "or a handler could not read it");
 };

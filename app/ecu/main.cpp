@@ -81,7 +81,7 @@ std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& s
     status = kWrongUsage;
     return std::nullopt;
   }
-  if (!name.empty()) {
+  if (app.count("--name") > 0) {
     std::string error;
     options.name = parse_name(name, error);
     if (!options.name) {

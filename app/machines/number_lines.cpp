@@ -17,8 +17,9 @@ constexpr std::size_t kMostErrors = 10;
 
 class NumberLines {
  public:
-  NumberLines(const Columns& columns, const TakeNumbers& take)
-      : columns_(columns), take_(take), cell_(columns.cell) {}
+  /// `text` is all of the file.
+  NumberLines(const Columns& columns, const TakeNumbers& take, std::string_view text)
+      : columns_(columns), take_(take), cell_(columns.cell), has_point_(has_decimal_point(text)) {}
 
   /// What is wrong with the line; empty: nothing.
   std::string take_line(std::size_t number, std::string_view line) {
@@ -36,6 +37,20 @@ class NumberLines {
   }
 
  private:
+  /// Behind a digit or before one, in any line.
+  static bool has_decimal_point(std::string_view text) {
+    const auto is_digit = [&](std::size_t at) {
+      return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
+    };
+    for (std::size_t at = text.find('.'); at != std::string_view::npos;
+         at = text.find('.', at + 1)) {
+      if (is_digit(at + 1) || (at > 0 && is_digit(at - 1))) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   static bool is_header(const std::vector<std::string_view>& cells) {
     const auto is_name = [](std::string_view cell) {
       return !cell.empty() && std::isalpha(static_cast<unsigned char>(cell.front())) != 0;
@@ -85,14 +100,12 @@ class NumberLines {
                              comma_hint(cells, most), allowed, columns_.names);
   }
 
-  /// Cells beyond those that are named are passed over; but where all are numbers and none has a
-  /// point, more than a header names, or two for each of those that are told, are halves of
-  /// numbers.
+  /// Cells beyond those that are named are passed over. But where all are numbers, two for each
+  /// that is named, and the whole file has no decimal point, they are halves of numbers.
   [[nodiscard]] bool has_halves(const std::vector<std::string_view>& cells) const {
     const std::size_t told = *std::max_element(cell_.begin(), cell_.end()) + 1;
-    const bool is_more =
-        header_cells_ > 0 ? cells.size() > header_cells_ : cells.size() >= told + cell_.size();
-    return is_more && !comma_hint(cells, 1).empty() &&
+    const std::size_t named = header_cells_ > 0 ? header_cells_ : told;
+    return !has_point_ && cells.size() >= named + cell_.size() && !comma_hint(cells, 1).empty() &&
            std::all_of(cells.begin(), cells.end(),
                        [](std::string_view cell) { return number_in(cell).has_value(); });
   }
@@ -119,6 +132,7 @@ class NumberLines {
   const TakeNumbers& take_;
   CellOfNumber cell_;
   std::size_t header_cells_ = 0;  ///< Of the first line, where that has names.
+  bool has_point_;                ///< Somewhere in the file: then no comma is one.
   bool any_ = false;
 };
 
@@ -127,7 +141,7 @@ class NumberLines {
 void read_number_lines(const std::filesystem::path& file, const Columns& columns,
                        const TakeNumbers& take) {
   const std::string text = plain_text(file, fmt::format("lines of {}", columns.names));
-  NumberLines lines(columns, take);
+  NumberLines lines(columns, take, text);
   std::vector<std::string> errors;
   std::size_t number = 0;
   for (std::size_t at = 0; at < text.size() && errors.size() < kMostErrors;) {

@@ -80,8 +80,8 @@ void AddressClaim::hear(const CanFrame& frame, TimeUs now) {
 }
 
 bool AddressClaim::due(TimeUs now, CanFrame& frame) {
-  const TimeUs fifth_us = sent_us_[count_ % sent_us_.size()];
-  const bool is_full = count_ >= sent_us_.size() && now >= fifth_us && now - fifth_us < kSecondUs;
+  const TimeUs fifth_us = tried_us_[count_ % tried_us_.size()];
+  const bool is_full = count_ >= tried_us_.size() && now >= fifth_us && now - fifth_us < kSecondUs;
   if (!owes_ || now < from_us_ || is_full) {
     return false;
   }
@@ -97,9 +97,9 @@ bool AddressClaim::due(TimeUs now, CanFrame& frame) {
   return true;
 }
 
-void AddressClaim::sent(TimeUs now) {
-  owes_ = false;
-  sent_us_[count_++ % sent_us_.size()] = now;
+void AddressClaim::tried(TimeUs now, bool taken) {
+  owes_ = owes_ && !taken;
+  tried_us_[count_++ % tried_us_.size()] = now;
 }
 
 }  // namespace graben::j1939

@@ -47,9 +47,9 @@ class AddressClaim {
   void hear(const CanFrame& frame, TimeUs now);
 
   /// True if a frame of ours is to go now: the claim, or that we cannot claim. It stays due until
-  /// sent() says that the bus has taken it.
+  /// tried() says that all buses have taken it, and each try counts: one of several may have.
   [[nodiscard]] bool due(TimeUs now, CanFrame& frame);
-  void sent(TimeUs now);
+  void tried(TimeUs now, bool taken);
 
   [[nodiscard]] std::uint64_t name() const { return name_; }
   /// Another one has our address: nothing else may be sent under it.
@@ -67,8 +67,8 @@ class AddressClaim {
   bool is_lost_ = false;
   bool owes_ = true;
   TimeUs from_us_ = 0;  ///< What is owed does not go before.
-  /// When the last ones were sent, in a ring: a storm of claims is answered so often in a second.
-  std::array<TimeUs, 5> sent_us_{};
+  /// When the last ones were tried, in a ring: a storm of claims is answered so often in a second.
+  std::array<TimeUs, 5> tried_us_{};
   std::size_t count_ = 0;
 };
 

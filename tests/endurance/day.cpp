@@ -26,7 +26,7 @@ Day::Day(const faults::Excavator::Scenery& scenery, test::MemoryDisk& disk)
       driver_(operator_port_),
       setup_(faults::Excavator::setup_of(scenery.machine)),
       claim_(kOwnAddress, kName),
-      address_(counted_, claim_),
+      address_(counted_, claim_, last_),
       diagnostics_(kOwnAddress, kOwnIds.data(), kOwnIds.size()),
       port_(address_, diagnostics_),
       ecu_(setup_, scenery.machine.hash, port_, nullptr),
@@ -59,6 +59,9 @@ void Day::control() {
   const FaultSet cleared = port_.finish({status.faults, status.mode, recorder_.stored(),
                                          ecu::frozen_of(recorder_.last()), recorder_.can_forget()});
   recorder_.forget(cleared, now_us_);
+  if (now_us_ % kSecondUs == 0 && rings_->learnt.has_room()) {
+    static_cast<void>(rings_->learnt.put(ecu::record_of(ecu_.learnt())));
+  }
   address_.finish();
   weight_.allocations +=
       weight_.cycles > 0 ? allocation_count() - counted_.allocations() - before : 0;

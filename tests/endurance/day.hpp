@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The simulated machine, its operator, a workshop's tool and all of the deployed controller that
-/// is no Linux: address, diagnosis, stored faults and their store, on a disk in memory.
+/// is no Linux: address, diagnosis, stored faults, what was learnt and their store, on a disk in
+/// memory.
 
 #include <cstdint>
 #include <memory>
@@ -27,7 +28,7 @@ struct Weight {
   std::uint64_t cycles = 0;
   std::uint64_t allocations = 0;  ///< Of the control thread since its first cycle.
   std::uint64_t events = 0;       ///< Faults that came, as the bus tells them.
-  std::uint32_t answers = 0;      ///< Frames to the tool, claims included.
+  std::uint32_t answers = 0;      ///< Claims, acknowledgments and packets of long messages.
 };
 
 /// The bus in memory has queues on the heap; what they take is not the controller's.
@@ -101,6 +102,7 @@ class Day {
   faults::Excavator::Operator driver_;
   ExcavatorSetup setup_;
   j1939::AddressClaim claim_;
+  ecu::LastFrames last_;
   ecu::AddressPort address_;
   j1939::Diagnostics diagnostics_;
   ecu::DiagnosticPort port_;

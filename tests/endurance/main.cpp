@@ -177,14 +177,20 @@ class Shifts {
     for (const auto& entry : found.history.entry) {
       stored += entry.occurrences;
     }
-    // Faults that end before the controller has been ready do not count.
-    demand(stored > 0 && stored <= weight.events && stored + 20 >= weight.events,
+    // Those that end before the controller has been ready do not count.
+    constexpr std::uint64_t kAtPowerOn = 6;
+    demand(stored > 0 && stored <= weight.events && stored + kAtPowerOn >= weight.events,
            fmt::format("{} occurrences stored, {} came", stored, weight.events));
     const auto seconds = static_cast<std::uint32_t>(day_.now_us() / kSecondUs);
     demand(found.history.operation_s + 1 >= seconds && found.history.operation_s <= seconds,
            fmt::format("{} s of operation stored, {} were", found.history.operation_s, seconds));
-    const auto tenth = static_cast<long>(errors_m_.size() / 10);
-    if (tenth > 0) {
+    demand(arms_ == count && stops_ == count / kFaultEvery,
+           fmt::format("{} arms, {} stops", arms_, stops_));
+    demand(weight.answers >= static_cast<std::uint32_t>(50 * count), "the tool is not answered");
+    demand(day_.claim().defended() > 0, "no claim was kept off");
+    demand(found.history.learnt.count > 0, "nothing learnt is stored");
+    const auto tenth = static_cast<long>((errors_m_.size() + 9) / 10);
+    if (!errors_m_.empty()) {
       const double first_m = median(errors_m_.begin(), errors_m_.begin() + tenth);
       const double last_m = median(errors_m_.end() - tenth, errors_m_.end());
       fmt::print("path error, median of the first tenth {:.1f} mm, of the last {:.1f} mm\n",

@@ -115,7 +115,9 @@ void FaultKeeper::drain(TimeUs now_us, std::uint32_t unix_s) {
   }
   while (const LearntRecord* const learnt = rings_.learnt.front()) {
     // Written with what is written anyway.
-    history_.learnt = own_.learnt = *learnt;
+    if (learnt->count > 0) {
+      history_.learnt = own_.learnt = *learnt;
+    }
     rings_.learnt.take();
   }
   while (const FreezeFrame* const frame = rings_.frames.front()) {

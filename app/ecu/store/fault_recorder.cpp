@@ -69,7 +69,7 @@ void FaultRecorder::note(const FaultSet& faults, const CycleSample& sample) {
     const auto i = static_cast<std::size_t>(fault);
     stored_[i] = limited(stored_[i] + 1U);
     own_[i] = limited(own_[i] + 1U);
-    // Of several in one cycle the first, which stands for what they followed from.
+    // Of several in one cycle the one of the lowest number.
     if (last_.fault == Fault::kNone || last_.sample.now_us != now_us) {
       last_ = {fault, sample};
     }

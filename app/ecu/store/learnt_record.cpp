@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ecu/store/learnt_record.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/drives/tuning.hpp"
+
 namespace graben::ecu {
+namespace {
+constexpr double kRounding = 1e-6;
+}  // namespace
 
 LearntRecord record_of(const ExcavatorKind::Learnt& learnt) {
   LearntRecord record;
@@ -9,7 +17,10 @@ LearntRecord record_of(const ExcavatorKind::Learnt& learnt) {
     record.value[record.count++] = static_cast<float>(edge.extend);
     record.value[record.count++] = static_cast<float>(edge.retract);
   }
-  return record;
+  // Nothing is no news: what an earlier run has stored stands.
+  const bool is_any = std::any_of(record.value.begin(), record.value.end(),
+                                  [](float value) { return value != 0.0F; });
+  return is_any ? record : LearntRecord{};
 }
 
 LearntRecord record_of(const DozerKind::Learnt& /*learnt*/) { return {}; }
@@ -19,9 +30,15 @@ bool learnt_from(const LearntRecord& record, ExcavatorKind::Learnt& learnt) {
     return false;
   }
   std::size_t next = 0;
+  // A bound that a run has come to is not beyond it for what a float makes of it.
+  const auto value = [&] {
+    const double stored = record.value[next++];
+    const double within = std::clamp(stored, -kLearntEdgeMost, kLearntEdgeMost);
+    return std::abs(stored - within) < kRounding ? within : stored;
+  };
   for (LearntDeadBand& edge : learnt) {
-    edge.extend = record.value[next++];
-    edge.retract = record.value[next++];
+    edge.extend = value();
+    edge.retract = value();
   }
   return true;
 }

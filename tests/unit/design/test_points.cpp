@@ -143,7 +143,16 @@ TEST(what_only_looks_like_a_number_is_named) {
   assert_true(halves("1,2000,5,1000,5,50,1,7\n", "PNEZD"));
   assert_true(halves("1000,5,2000,5,50,1\n", "ENZ"));
   assert_true(has(refusal("P,N,E,Z\n1,2000,5,1000,5,50,1\n"), "line 2: 7 numbers, as a decimal"));
-  assert_true(has(refusal("N,E,Z\n2000,1000,5,50\n"), "line 2: 4 numbers, as a decimal"));
+  // Colours behind a point of whole numbers are none.
+  assert_near(
+      (last_of(read("X,Y,Z\n0,0,1,255,255,255\n0.5,40,1,255,255,255\n1040,2020,50.8,1,2,3\n")) - kFar)
+          .head<2>()
+          .norm(),
+      0.0, 1e-4);
+  assert_near((last_of(read("N,E,Z\n2000,1000,50,9\n2000,1040,50,9\n2020,1040,50,9\n")) - kFar)
+                  .head<2>()
+                  .norm(),
+              0.0, 1e-4);
   assert_near(
       (last_of(read_as("2000,1000,50,1,2\n2000,1040,50,1,2\n2020,1040,50,1,2\n", "NEZ")) - kFar)
           .head<2>()

@@ -127,11 +127,13 @@ TEST(what_was_learnt_comes_back_with_the_profile_and_not_with_another) {
   assert_true(holds(again.begin_text, "; what was learnt: read"));
   LearntDrives found{};
   assert_true(learnt_from(again.keeper().history().learnt, found));
+  assert_true(is_sound(found));
   for (std::size_t i = 0; i < found.size(); ++i) {
     assert_near(found[i].extend, learnt[i].extend, 1e-7);
     assert_near(found[i].retract, learnt[i].retract, 1e-7);
   }
-  // Faults that are cleared take nothing of it along.
+  // A run that has learnt nothing yet takes nothing away.
+  assert_true(again.rings().learnt.put(record_of(LearntDrives{})));
   again.run(1.0);
   again.end();
   assert_true(learnt_from(stored(disk).history.learnt, found));
