@@ -145,7 +145,8 @@ TEST(what_only_looks_like_a_number_is_named) {
   assert_true(has(refusal("P,N,E,Z\n1,2000,5,1000,5,50,1\n"), "line 2: 7 numbers, as a decimal"));
   // Colours behind a point of whole numbers are none.
   assert_near(
-      (last_of(read("X,Y,Z\n0,0,1,255,255,255\n0.5,40,1,255,255,255\n1040,2020,50.8,1,2,3\n")) - kFar)
+      (last_of(read("X,Y,Z\n0,0,1,255,255,255\n0.5,40,1,255,255,255\n1040,2020,50.8,1,2,3\n")) -
+       kFar)
           .head<2>()
           .norm(),
       0.0, 1e-4);
