@@ -3,7 +3,9 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <vector>
 
+#include "app/ecu/store/record_format.hpp"
 #include "hal/j1939/address_claim.hpp"
 
 namespace graben::ecu {
@@ -38,12 +40,8 @@ std::uint64_t found_name(const std::string& machine_id_file) {
   std::string id;
   j1939::NameFields fields;
   if (in >> id) {
-    constexpr std::uint32_t kOffset = 2166136261U;
-    constexpr std::uint32_t kPrime = 16777619U;
-    fields.identity = kOffset;
-    for (const char c : id) {
-      fields.identity = (fields.identity ^ static_cast<std::uint8_t>(c)) * kPrime;
-    }
+    const std::vector<std::uint8_t> bytes(id.begin(), id.end());
+    fields.identity = crc32(bytes.data(), bytes.size());
   }
   return j1939::name_of(fields);
 }

@@ -13,7 +13,7 @@ namespace graben::ecu {
 [[nodiscard]] std::optional<std::uint64_t> parse_name(const std::string& text, std::string& error);
 
 /// The same on each start of a computer, and as good as never that of another one: its identity is
-/// the low 21 bits of the hash (FNV-1a) of the text in `machine_id_file` (machine-id(5)); 0 if that
+/// the low 21 bits of the CRC-32 of the text in `machine_id_file` (machine-id(5)); 0 if that
 /// cannot be read. No manufacturer's number: the SAE gives those.
 [[nodiscard]] std::uint64_t found_name(const std::string& machine_id_file);
 
