@@ -28,7 +28,9 @@ constexpr double kArrivedSpeedPs = 1e-7;
 }  // namespace
 
 Spool::Spool(const SpoolDynamics& dynamics)
-    : natural_frequency_radps_(1.0 / dynamics.time_constant_s),
+    : opens_radps_(1.0 / dynamics.time_constant_s),
+      closes_radps_(dynamics.closing_time_constant_s > 0.0 ? 1.0 / dynamics.closing_time_constant_s
+                                                           : opens_radps_),
       damping_(dynamics.damping),
       extend_(dynamics.extend),
       retract_(dynamics.retract),
@@ -41,7 +43,8 @@ bool Spool::step(double step_s) {
   if (travel_ == command_ && speed_ps_ == 0.0) {
     return false;
   }
-  const double w = natural_frequency_radps_;
+  const bool closes = travel_ * (command_ - travel_) < 0.0;
+  const double w = closes ? closes_radps_ : opens_radps_;
   const double half = 0.5 * step_s;
   const double mean_speed = (speed_ps_ + half * w * w * (command_ - travel_)) /
                             (1.0 + half * half * w * w + 2.0 * damping_ * w * half);

@@ -124,6 +124,8 @@ struct SpoolDynamics {
   /// Share of the way from where the edges begin to open to full travel at which the bypass is
   /// closed instead, evenly; 0: as above.
   double bypass_closes_at = 0.0;
+  /// 1 / natural frequency while it is sent nearer to neutral, or past it; 0: as on the way out.
+  double closing_time_constant_s = 0.0;
 };
 
 /// Second-order lag from duty to travel with mechanical limits at full travel (Kim 5). Travel is in
@@ -147,7 +149,8 @@ class Spool {
  private:
   void update_openings();
 
-  double natural_frequency_radps_;
+  double opens_radps_;   ///< Natural frequency on the way out ...
+  double closes_radps_;  ///< ... and on the way home.
   double damping_;
   SpoolSide extend_;
   SpoolSide retract_;

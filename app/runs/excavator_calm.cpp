@@ -13,8 +13,9 @@ RealSpoolEdges spool_edges(const plant::ExcavatorPlantProfile& plant) {
 
 void ExcavatorCalmCount::pause() {
   lambda_.pause();
-  for (SpoolCalm& spool : spool_) {
-    spool.pause();
+  for (std::size_t i = 0; i < spool_.size(); ++i) {
+    spool_[i].pause();
+    duty_[i].pause();
   }
   jerk_.pause();
   last_.reset();
@@ -26,6 +27,8 @@ ExcavatorCalm ExcavatorCalmCount::figures() {
   for (std::size_t i = 0; i < spool_.size(); ++i) {
     calm.spool_travel_ps[i] = spool_[i].travel_ps();
     calm.spool_reversals_ps[i] = spool_[i].reversals_ps();
+    calm.duty_travel_ps[i] = duty_[i].travel_ps();
+    calm.duty_sign_changes_ps[i] = duty_[i].reversals_ps();
   }
   pause();
   calm.jerk_rms_mps3 = jerk_.rms_mps3();

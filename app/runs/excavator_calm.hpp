@@ -35,6 +35,9 @@ struct ExcavatorCalm {
   /// Of the real spools; drives that the run does not have stay 0.
   std::array<double, kDriveCount> spool_travel_ps{};
   std::array<double, kDriveCount> spool_reversals_ps{};
+  // What is sent to them, which wears their pilot valves.
+  std::array<double, kDriveCount> duty_travel_ps{};
+  std::array<double, kDriveCount> duty_sign_changes_ps{};
   double jerk_rms_mps3 = 0.0;  ///< Of the point that works, see Jerk.
   PumpEnergy energy;
   double swash_mean = 0.0;  ///< Of the pumps that the machine has, of full swash.
@@ -50,10 +53,11 @@ struct ExcavatorCalm {
   }
 };
 
-/// Counts samples that have lambda, spool_real, swash_real and energy.
+/// Counts samples that have lambda, spool_real, spool_command, swash_real and energy.
 class ExcavatorCalmCount {
  public:
-  explicit ExcavatorCalmCount(const RealSpoolEdges& edges) : spool_(edges.begin(), edges.end()) {}
+  explicit ExcavatorCalmCount(const RealSpoolEdges& edges)
+      : spool_(edges.begin(), edges.end()), duty_(edges.size(), SpoolCalm(SpoolEdges{})) {}
 
   /// `works_at_m` is where the point that works is.
   template <class Sample>
@@ -61,6 +65,7 @@ class ExcavatorCalmCount {
     lambda_.add(sample.lambda);
     for (std::size_t i = 0; i < sample.spool_real.size(); ++i) {
       spool_[i].add(sample.spool_real[i]);
+      duty_[i].add(sample.spool_command[i]);
     }
     jerk_.add(works_at_m);
     if (last_) {
@@ -78,6 +83,7 @@ class ExcavatorCalmCount {
  private:
   Variation lambda_;
   std::vector<SpoolCalm> spool_;
+  std::vector<SpoolCalm> duty_;
   Jerk jerk_;
   std::optional<PumpEnergy> last_;
   PumpEnergy energy_;
@@ -113,7 +119,7 @@ template <class Summary>
                    });
 }
 
-/// The same, with its energy and its pumps.
+/// The same, with its energy, its pumps, and what is sent to the spools of boom and arm.
 template <class Summary>
 [[nodiscard]] FigureTable<Summary> with_energy(FigureTable<Summary> table) {
   using S = Summary;
@@ -126,6 +132,18 @@ template <class Summary>
                         [](const S& s) { return s.calm.spilled_share(); }},
                        {{"swash_mean", "swash of the pumps, mean", kRatio, "swash_mean"},
                         [](const S& s) { return s.calm.swash_mean; }},
+                       {{"duty_travel_ps.boom", "boom's duty, full travels a second", kPerSecond,
+                         "duty_travel_boom_ps"},
+                        [](const S& s) { return s.calm.duty_travel_ps[kBoom]; }},
+                       {{"duty_travel_ps.arm", "arm's duty, full travels a second", kPerSecond,
+                         "duty_travel_arm_ps"},
+                        [](const S& s) { return s.calm.duty_travel_ps[kArm]; }},
+                       {{"duty_sign_changes_ps.boom", "boom's duty, changes of sign a second",
+                         kPerSecond, "duty_sign_changes_boom_ps"},
+                        [](const S& s) { return s.calm.duty_sign_changes_ps[kBoom]; }},
+                       {{"duty_sign_changes_ps.arm", "arm's duty, changes of sign a second",
+                         kPerSecond, "duty_sign_changes_arm_ps"},
+                        [](const S& s) { return s.calm.duty_sign_changes_ps[kArm]; }},
                    });
 }
 

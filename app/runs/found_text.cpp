@@ -14,17 +14,18 @@ namespace graben::runs {
 namespace {
 
 using machines::Found;
+using machines::Told;
 
 struct Key {
   const char* name;
   const char* unit;
   double least;
   double most;
-  std::optional<double> Found::*value;
+  std::optional<Told> Found::*value;
 };
 
 /// A deadband narrower than the bypass' closing would keep the bypass partly closed at neutral.
-constexpr std::array<Key, 9> kKeys = {{
+constexpr std::array<Key, 11> kKeys = {{
     {"oil", "GPa", 0.1, 100.0, &Found::bulk_modulus_gpa},
     {"exponent", "", 0.5, 4.0, &Found::opening_exponent},
     {"dead_band", "", plant::kBypassClosingTravel, 0.6, &Found::deadband_ratio},
@@ -34,6 +35,8 @@ constexpr std::array<Key, 9> kKeys = {{
     {"pump_flow", "", 0.1, 2.0, &Found::pump_flow_factor},
     {"engine_sag", "", 0.0, 0.5, &Found::engine_sag_ratio},
     {"dead_time", "s", 0.0, 0.5, &Found::dead_time_s},
+    {"spool_closes", "s", 0.001, 1.0, &Found::closing_time_constant_s},
+    {"bypass_leak", "", 0.1, 10.0, &Found::bypass_leak_factor},
 }};
 
 std::string with_unit(const std::string& text, const Key& key) {
@@ -66,6 +69,25 @@ double value_of(const Key& key, const std::string& text) {
   return value;
 }
 
+/// "0.7", or "0.6..2" that is drawn.
+Told told_of(const Key& key, const std::string& text) {
+  const std::size_t dots = text.find("..");
+  if (dots == std::string::npos) {
+    return value_of(key, text);
+  }
+  const Told told(value_of(key, text.substr(0, dots)), value_of(key, text.substr(dots + 2)));
+  if (!told.is_range()) {
+    throw std::runtime_error(
+        fmt::format("{}: '{}'; allowed: a range from less to more", key.name, text));
+  }
+  return told;
+}
+
+std::string told_text(const Told& told) {
+  return told.is_range() ? fmt::format("{} .. {}", told.least, told.most)
+                         : fmt::format("{}", told.least);
+}
+
 }  // namespace
 
 machines::Found found_of(const std::string& text) {
@@ -76,8 +98,8 @@ machines::Found found_of(const std::string& text) {
     const std::string part = text.substr(begin, comma - begin);
     const std::size_t equals = std::min(part.find('='), part.size());
     const Key& key = key_of(part.substr(0, equals));
-    const double value = value_of(key, equals == part.size() ? "" : part.substr(equals + 1));
-    std::optional<double>& told = found.*key.value;
+    const Told value = told_of(key, equals == part.size() ? "" : part.substr(equals + 1));
+    std::optional<Told>& told = found.*key.value;
     if (told) {
       throw std::runtime_error(
           fmt::format("{} is there twice; allowed: once, {}", key.name, range_text(key)));
@@ -91,8 +113,8 @@ machines::Found found_of(const std::string& text) {
 std::string found_text(const machines::Found& found) {
   std::vector<std::string> parts;
   for (const Key& key : kKeys) {
-    if (const std::optional<double>& told = found.*key.value) {
-      parts.push_back(with_unit(fmt::format("{} {}", key.name, *told), key));
+    if (const std::optional<Told>& told = found.*key.value) {
+      parts.push_back(with_unit(fmt::format("{} {}", key.name, told_text(*told)), key));
     }
   }
   return fmt::format("{}", fmt::join(parts, ", "));

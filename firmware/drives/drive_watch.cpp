@@ -96,6 +96,7 @@ FaultSet watch_drives(DriveRows drives, const BusCapabilities& bus, const DriveC
                                                Fault::kSpoolMissing, valid);
   if (!state.closing) {
     stops.remove(Fault::kSpoolStuck);
+    stops.remove(Fault::kSpoolLate);
   }
   stops.add(watch_rests(drives, last, seen, period_s, state, valid));
   // Without their strokes and spools the drives cannot be checked, and the fault is there anyway.

@@ -27,14 +27,73 @@ CommandHistory::Range lagged(const CommandHistory::Range& last,
           std::max(towards.most, last.most + newest_share * (towards.most - last.most))};
 }
 
-/// Of one spool: it is stuck.
-bool follow(const DriveRow& drive, const SentCommand& command, int i, double spool_ratio,
-            int cycles, bool received, SpoolState& state) {
+/// On its way out it has come less far than the slowest sound one.
+bool is_behind(double spool_ratio, const CommandHistory::Range& range, double tolerance) {
+  const double nearest = std::clamp(spool_ratio, range.least, range.most);
+  return std::abs(spool_ratio) < std::abs(nearest) &&
+         (spool_ratio * nearest >= 0.0 || std::abs(spool_ratio) <= tolerance);
+}
+
+/// A cycle of a spool that is behind: does it still stand where it fell behind?
+void fall_behind(double spool_ratio, int cycles, SpoolState& state) {
+  if (state.behind_cycles == 0) {
+    state.behind_at_ratio = spool_ratio;
+    state.stood_cycles = 0;
+  }
+  if (state.stood_cycles == state.behind_cycles &&
+      std::abs(spool_ratio - state.behind_at_ratio) < kSpoolMoves) {
+    state.stood_cycles += cycles;
+  }
+  state.behind_cycles += cycles;
+}
+
+/// It is no longer behind.
+Fault caught_up(double spool_ratio, double tolerance, SpoolState& state) {
+  const bool came = std::abs(spool_ratio) - std::abs(state.behind_at_ratio) > tolerance;
+  Fault fault = Fault::kNone;
+  if (came && state.stood_cycles >= kSpoolWrongCycles) {
+    fault = Fault::kSpoolLate;
+  } else if (came) {
+    state.later_cycles = std::min(state.later_cycles + state.behind_cycles, kSpoolBehindCycles);
+  }
+  state.behind_cycles = 0;
+  return fault;
+}
+
+/// Wrong for long enough, and not on its way to where it should be.
+bool is_stuck(bool wrong, double spool_ratio, const CommandHistory::Range& range,
+              SpoolState& state) {
+  if (!wrong) {
+    state.wrong_cycles = 0;
+    state.slow_cycles = 0;
+    return false;
+  }
+  if (state.wrong_cycles == 0) {
+    state.wrong_at_ratio = spool_ratio;
+  }
+  state.wrong_cycles = std::min(state.wrong_cycles + 1, kSpoolWrongCycles);
+  if (state.wrong_cycles < kSpoolWrongCycles) {
+    return false;
+  }
+  const double nearest = std::clamp(spool_ratio, range.least, range.most);
+  const double nearer = std::abs(state.wrong_at_ratio - nearest) - std::abs(spool_ratio - nearest);
+  if (nearer < kSpoolMoves || state.slow_cycles >= kSpoolBehindCycles) {
+    return true;
+  }
+  state.slow_cycles += state.wrong_cycles;
+  state.wrong_cycles = 0;
+  return false;
+}
+
+/// Of one spool: what is wrong with it.
+Fault follow(const DriveRow& drive, const SentCommand& command, int i, double spool_ratio,
+             int cycles, bool received, SpoolState& state) {
   const double duty_ratio = command.duty_ratio[i];
   const double starts_s =
       std::max(spool_starts_s(drive), command.tried ? kUnknownSpoolStarts_s : 0.0);
   const double lag_s = std::max(spool_lag_s(drive), command.tried ? kUnknownSpoolLag_s : 0.0);
-  const int starting = cycles_under_way(starts_s + kSpoolFrameCycles * kCyclePeriod_s);
+  const int starting =
+      cycles_under_way(starts_s + (kSpoolFrameCycles + state.later_cycles) * kCyclePeriod_s);
   // An implicit step: a little slower than the lag itself.
   const double led = duty_ratio + command.lead_ratio[i];
   // A spool faster than the one that is led gets to where the lead points.
@@ -45,13 +104,23 @@ bool follow(const DriveRow& drive, const SentCommand& command, int i, double spo
   }
   if (!received) {
     state.wrong_cycles = 0;
-    return false;
+    state.behind_cycles = 0;
+    return Fault::kNone;
   }
   const CommandHistory::Range range = state.range.now();
   const double tolerance = drive.watch.spool_tolerance;
   const bool wrong = spool_ratio < range.least - tolerance || spool_ratio > range.most + tolerance;
-  state.wrong_cycles = wrong ? std::min(state.wrong_cycles + 1, kSpoolWrongCycles) : 0;
-  return state.wrong_cycles >= kSpoolWrongCycles;
+  if (wrong && state.behind_cycles < kSpoolBehindCycles &&
+      is_behind(spool_ratio, range, tolerance)) {
+    fall_behind(spool_ratio, cycles, state);
+    state.wrong_cycles = 0;
+    return Fault::kNone;
+  }
+  if (!wrong && state.behind_cycles > 0) {
+    state.wrong_cycles = 0;
+    return caught_up(spool_ratio, tolerance, state);
+  }
+  return is_stuck(wrong, spool_ratio, range, state) ? Fault::kSpoolStuck : Fault::kNone;
 }
 
 }  // namespace
@@ -84,9 +153,12 @@ FaultSet watch_spools(DriveRows drives, const SentCommand& sent, Span<const Vali
                       const ValveFeedback& feedback, Span<SpoolState> spool, int& echo_cycles) {
   FaultSet faults;
   for (int i = 0; i < drives.count(); ++i) {
-    if (drives[i].watch.senses_spool && follow(drives[i], sent, i, seen[i].spool_ratio,
-                                               feedback.cycles, feedback.received, spool[i])) {
-      faults.add(Fault::kSpoolStuck);
+    if (drives[i].watch.senses_spool) {
+      const Fault fault = follow(drives[i], sent, i, seen[i].spool_ratio, feedback.cycles,
+                                 feedback.received, spool[i]);
+      if (fault != Fault::kNone) {
+        faults.add(fault);
+      }
     }
   }
   const bool differs = feedback.received && feedback.has_echo && feedback.enabled != sent.enable;

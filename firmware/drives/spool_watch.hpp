@@ -58,7 +58,14 @@ class SpoolRange {
 struct SpoolState {
   CommandHistory sent;
   SpoolRange range;
-  int wrong_cycles = 0;  ///< In a row.
+  int wrong_cycles = 0;         ///< In a row.
+  double wrong_at_ratio = 0.0;  ///< Where it was at the first of them.
+  int slow_cycles = 0;          ///< That it has been wrong and on its way to where it should be.
+  // A spool that opens later than it should, of which nothing moves before its time.
+  int behind_cycles = 0;         ///< In a row, that it has been.
+  int stood_cycles = 0;          ///< Of them, until it moved at all.
+  double behind_at_ratio = 0.0;  ///< Where it was when it fell behind.
+  int later_cycles = 0;          ///< By so much it was found to be slower than told.
 };
 
 /// Commands of the last cycle, one a drive.
@@ -78,11 +85,17 @@ struct ValveFeedback {
   int cycles = 1;                 ///< Since the last ones were seen (cycles_in).
 };
 
-/// kSpoolStuck, kValveNotFollowing; the states go on by a cycle. A spool must lie in its
-/// SpoolRange, with the late start and the lag that `settle_s` stands for (drive_bank.hpp), within
-/// the tolerance. So one that stands is seen as soon as the slowest would have left it behind. One
-/// that is not measured, and what was not received, is not checked. Where duties are tried, a spool
-/// may start within 0.45 s, with lags of 0.16 s each. `echo_cycles` counts the cycles
+/// kSpoolStuck, kSpoolLate, kValveNotFollowing; the states go on by a cycle. A spool must lie in
+/// its SpoolRange, with the late start and the lag that `settle_s` stands for (drive_bank.hpp),
+/// within the tolerance. So one that stands is seen as soon as the slowest would have left it
+/// behind. One that is not measured, and what was not received, is not checked. Where duties are
+/// tried, a spool may start within 0.45 s, with lags of 0.16 s each.
+///
+/// A spool that is behind on its way out opens too little, which moves nothing before its time: it
+/// may catch up within 0.3 s. So may one that is open too far and on its way home; one that stands
+/// there is stuck at once. One that moved all the while is slower than told, and may be so from
+/// then on in both ways. One that stood at first and then comes is late: kSpoolLate. One that does
+/// not come is stuck. `echo_cycles` counts the cycles
 /// in a row, up to feedback.echo_cycles, in which the echo differed from our enable.
 [[nodiscard]] FaultSet watch_spools(DriveRows drives, const SentCommand& sent,
                                     Span<const ValidDrive> seen, const ValveFeedback& feedback,

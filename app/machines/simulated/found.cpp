@@ -15,17 +15,25 @@ class Finding {
   Finding(std::uint64_t seed, bool is_drawn)
       : random_(seed, plant::Draw::kAsFound), is_drawn_(is_drawn) {}
 
-  double around(const std::optional<double>& told, double nominal, double most) {
-    return chosen(told, nominal, nominal + random_.symmetric(most));
+  double around(const std::optional<Told>& told, double nominal, double most) {
+    const double share = random_.uniform();
+    return chosen(told, share, nominal, nominal + most * (2.0 * share - 1.0));
   }
-  double within(const std::optional<double>& told, double nominal, const Interval& range) {
-    return chosen(told, nominal, range.least + random_.uniform() * (range.most - range.least));
+  double within(const std::optional<Told>& told, double nominal, const Interval& range) {
+    const double share = random_.uniform();
+    return chosen(told, share, nominal, between(share, range.least, range.most));
   }
 
  private:
-  [[nodiscard]] double chosen(const std::optional<double>& told, double nominal,
+  [[nodiscard]] static double between(double share, double least, double most) {
+    return least + share * (most - least);
+  }
+  [[nodiscard]] double chosen(const std::optional<Told>& told, double share, double nominal,
                               double drawn) const {
-    return told.value_or(is_drawn_ ? drawn : nominal);
+    if (told) {
+      return between(share, told->least, told->most);
+    }
+    return is_drawn_ ? drawn : nominal;
   }
 
   plant::Random random_;
@@ -44,9 +52,9 @@ void make_as_found(plant::ExcavatorPlantProfile& plant, const FoundRanges& range
       *side = finding.around(told.deadband_ratio, *side, ranges.deadband_ratio);
     }
     // One draw for both sides: their exponents go up and down together.
-    const double exponent_off = finding.around(std::nullopt, 0.0, ranges.opening_exponent);
+    const double exponent_off = finding.around(told.opening_exponent, 0.0, ranges.opening_exponent);
     for (double* side : {&spool.extend.opening_exponent, &spool.retract.opening_exponent}) {
-      *side = told.opening_exponent.value_or(*side + exponent_off);
+      *side = told.opening_exponent ? exponent_off : *side + exponent_off;
     }
     spool.time_constant_s = finding.within(told.spool_time_constant_s, spool.time_constant_s,
                                            ranges.spool_time_constant_s);
@@ -66,13 +74,20 @@ void make_as_found(plant::ExcavatorPlantProfile& plant, const FoundRanges& range
   for (double& pump : plant.pump_flow_ratio) {
     pump *= finding.around(told.pump_flow_factor, 1.0, ranges.pump_flow);
   }
-  std::optional<double> told_pa;
+  std::optional<Told> told_pa;
   if (told.bulk_modulus_gpa) {
-    told_pa = kPaPerGpa * *told.bulk_modulus_gpa;
+    told_pa =
+        Told(kPaPerGpa * told.bulk_modulus_gpa->least, kPaPerGpa * told.bulk_modulus_gpa->most);
   }
   plant.bulk_modulus_pa = finding.within(told_pa, plant.bulk_modulus_pa, ranges.bulk_modulus_pa);
   plant.engine.share =
       finding.within(told.engine_sag_ratio, plant.engine.share, {0.0, ranges.engine_sag});
+  // Only where they are told, from numbers behind all others: what was drawn before stays as it is.
+  for (std::size_t i = 0; i < kDriveCount; ++i) {
+    plant.spool[i].closing_time_constant_s =
+        finding.around(told.closing_time_constant_s, plant.spool[i].closing_time_constant_s, 0.0);
+    plant.machine.valve.spool[i].bypass_closed *= finding.around(told.bypass_leak_factor, 1.0, 0.0);
+  }
 }
 
 }  // namespace graben::machines

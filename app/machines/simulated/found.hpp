@@ -23,18 +23,38 @@ struct FoundRanges {
   double dead_time_s = 0.0;  ///< From 0 on, beside what the controller is told.
 };
 
-/// What a machine is told to be, of all its spools, axes, pumps alike.
+/// A figure as its user says it: one value, or from where to where it is drawn.
+struct Told {
+  double least = 0.0;
+  double most = 0.0;
+
+  Told() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): most are one value.
+  Told(double value) : least(value), most(value) {}
+  Told(double from, double to) : least(from), most(to) {}
+
+  [[nodiscard]] bool is_range() const { return least < most; }
+};
+
+inline bool operator==(const Told& told, const Told& other) {
+  return told.least == other.least && told.most == other.most;
+}
+
+/// What a machine is told to be, of all its spools, axes, pumps alike, or of each by itself within
+/// a range.
 struct Found {
-  std::optional<double>
-      bulk_modulus_gpa;  ///< As its user says it: the same figure again in a text.
-  std::optional<double> opening_exponent;
-  std::optional<double> deadband_ratio;
-  std::optional<double> spool_time_constant_s;
-  std::optional<double> friction_factor;  ///< On the nominal figures, like the next ones.
-  std::optional<double> mass_factor;
-  std::optional<double> pump_flow_factor;
-  std::optional<double> engine_sag_ratio;
-  std::optional<double> dead_time_s;  ///< Beside what the controller is told.
+  std::optional<Told> bulk_modulus_gpa;  ///< As its user says it: the same figure again in a text.
+  std::optional<Told> opening_exponent;
+  std::optional<Told> deadband_ratio;
+  std::optional<Told> spool_time_constant_s;
+  std::optional<Told> friction_factor;  ///< On the nominal figures, like the next ones.
+  std::optional<Told> mass_factor;
+  std::optional<Told> pump_flow_factor;
+  std::optional<Told> engine_sag_ratio;
+  std::optional<Told> dead_time_s;  ///< Beside what the controller is told.
+  /// Of a spool on its way to neutral, where that is another; unless told as on the way out.
+  std::optional<Told> closing_time_constant_s;
+  std::optional<Told> bypass_leak_factor;  ///< What a closed bypass still lets through.
 };
 
 /// Draws what is found from the plant's seed if it `is_drawn`; what is told goes before that, and

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/excavator/outputs/outputs.hpp"
 
+#include <algorithm>
+
 #include "firmware/excavator/tuning.hpp"
 
 namespace graben {
@@ -43,7 +45,7 @@ LedThrough led_through(const ExcavatorModel& machine, const Duties& wanted,
   LedThrough time_s{};
   for (unsigned k = 0; k < time_s.size(); ++k) {
     time_s[k] = led_through_s(machine.drives[static_cast<int>(k)].answer, wanted[k],
-                              state.spool[k].travel_ratio);
+                              state.spool[k].model.travel_ratio);
   }
   return time_s;
 }
@@ -51,26 +53,38 @@ LedThrough led_through(const ExcavatorModel& machine, const Duties& wanted,
 /// The spools that are led, a cycle on with what was sent.
 void spools_after(OutputState& state) {
   for (unsigned k = 0; k < state.led_s.size(); ++k) {
-    state.spool[k] = spool_after(state.led_s[k], state.sent[k], state.spool[k]);
+    next_led(state.led_s[k], state.sent[k], state.spool[k]);
+  }
+}
+
+/// What the measured spools say of their models.
+void judge_models(const ExcavatorModel& machine, const ExcavatorValid& valid, OutputState& state) {
+  for (unsigned k = 0; k < state.led_s.size(); ++k) {
+    if (machine.drives[static_cast<int>(k)].watch.senses_spool) {
+      judge_model(state.led_s[k], valid.drive[k].spool_ratio, state.spool[k]);
+    }
   }
 }
 
 /// `wanted` through the gate, led through the spools' lag if `leads`.
-GateResult send(const ExcavatorModel& machine, bool active, bool leads, const Duties& wanted,
-                const Cycle& cycle, OutputState& state, Duties& duty_ratio) {
+GateResult send(const ExcavatorModel& machine, const ExcavatorValid& valid, bool active, bool leads,
+                const Duties& wanted, const Cycle& cycle, OutputState& state, Duties& duty_ratio) {
   // The spools have gone on by one cycle; by more, if this one comes late.
   for (int n = 1; n < cycles_in(cycle.elapsed_s); ++n) {
     spools_after(state);
   }
   Duties led = wanted;
   const LedThrough time_s = led_through(machine, wanted, state);
+  if (leads && valid.fault == Fault::kNone) {
+    judge_models(machine, valid, state);
+  }
   for (unsigned k = 0; leads && k < time_s.size(); ++k) {
-    led[k] = led_duty(time_s[k], wanted[k], state.spool[k]);
+    led[k] = trusted_lead(time_s[k], wanted[k], state.spool[k]);
   }
   const GateResult gated =
       gate_duties(machine.drives, active, led, cycle.period_s, state.sent, duty_ratio);
   if (!leads || !gated.enable) {
-    state.spool = {};
+    std::for_each(state.spool.begin(), state.spool.end(), rest_led);
     return gated;
   }
   state.led_s = time_s;
@@ -114,8 +128,8 @@ SentDuties put_out(const ExcavatorModel& machine, const ExcavatorValid& valid,
     }
   }
   const bool leads = is_on_oil(machine.profile) && !motion.tries;
-  const GateResult gated =
-      send(machine, decision.active(), leads, sent.duty_ratio, cycle, state, outputs.duty_ratio);
+  const GateResult gated = send(machine, valid, decision.active(), leads, sent.duty_ratio, cycle,
+                                state, outputs.duty_ratio);
   take_refusal(gated.fault, decision);
   outputs.enable = gated.enable;
   if (!gated.enable) {

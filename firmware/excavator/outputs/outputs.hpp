@@ -3,7 +3,7 @@
 /// Fifth stage of a cycle: from what may be followed to what the valve and the pumps are sent.
 
 #include "firmware/drives/drive_gate.hpp"
-#include "firmware/drives/spool_lead.hpp"
+#include "firmware/drives/led_spool.hpp"
 #include "firmware/excavator/limits/limits.hpp"
 #include "firmware/excavator/outputs/pump_demand.hpp"
 
@@ -16,7 +16,7 @@ using LedThrough = std::array<double, 2>;
 struct OutputState {
   std::array<double, kDriveCount> opening{};  ///< x / x_m at work.
   std::array<double, kDriveCount> sent{};     ///< Duties that the gate let through.
-  std::array<SpoolModel, kDriveCount> spool;
+  std::array<LedSpool, 2> spool;
   LedThrough led_s{};
   PumpDemand pumps;
 };

@@ -79,6 +79,8 @@ const Promise kPromises[] = {
     // Somebody outside.
     {56, Fault::kExternalStop, 'N', 31, ArmBlock::kExternal},
     {57, Fault::kExternalSilent, 'N', 9, ArmBlock::kExternal},
+    // A spool that is later than told.
+    {58, Fault::kSpoolLate, 'N', 10, ArmBlock::kValve},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "firmware/drives/spool_lead.hpp"
+#include "firmware/drives/led_spool.hpp"
+#include "firmware/drives/tuning.hpp"
 #include "firmware/excavator/estimation/oil/oil_cycle.hpp"
 #include "firmware/excavator/estimation/oil/oil_law.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
@@ -284,6 +285,46 @@ TEST(a_led_spool_arrives_in_two_cycles) {
   }
   SpoolModel none;
   assert_near(led_duty(0.0, -0.3, none), -0.3, 0.0);
+}
+
+/// What a spool is sent that is led while it follows with a lag of its own, and where it then is.
+struct Following {
+  double lag_s;
+  LedSpool led;
+  SpoolModel real;
+  double added = 0.0;  ///< Most that the lead added.
+
+  /// To and fro for a while.
+  void go(double time_s) {
+    for (int n = 0; n < static_cast<int>(std::lround(time_s / kCyclePeriod_s)); ++n) {
+      const double wanted = 0.4 + 0.2 * std::sin(0.1 * n) + ((n / 30) % 2 == 0 ? 0.05 : 0.0);
+      judge_model(0.02, real.travel_ratio, led);
+      const double duty = trusted_lead(0.02, wanted, led);
+      added = std::max(added, std::abs(duty - wanted));
+      next_led(0.02, duty, led);
+      real = spool_after(lag_s, duty, real);
+    }
+  }
+};
+
+/// A spool as told is led, within the bound; one that is three times as slow is not, until it is as
+/// told again. What was learnt of it outlives a pause.
+TEST(no_spool_is_led_by_a_model_that_it_does_not_follow) {
+  Following sound{0.02, {}, {}};
+  sound.go(20.0);
+  assert_true(sound.added > 0.5 * kLeadMost && sound.added <= kLeadMost + 1e-12);
+  Following slow{0.06, {}, {}};
+  slow.go(20.0);
+  slow.added = 0.0;
+  slow.go(5.0);
+  assert_near(slow.added, 0.0, 1e-12);
+  rest_led(slow.led);
+  slow.real = {};
+  slow.go(0.1);
+  assert_near(slow.added, 0.0, 1e-12);
+  slow.lag_s = 0.02;
+  slow.go(20.0);
+  assert_true(slow.added > 0.5 * kLeadMost);
 }
 
 /// From rest no duty is more than four times what is wanted, however slow the spool is; where it is

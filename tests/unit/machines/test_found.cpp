@@ -250,10 +250,31 @@ TEST(stiff_oil_stays_stiff) {
   test::expect_refusal([&] { return arranged(nominal(), scenario); }, "oil");
 }
 
+/// Of a range each spool has its own value, another with another seed; nothing else is drawn anew.
+TEST(a_range_is_drawn_within) {
+  Scenario scenario = with_errors(Errors::kAll, 7);
+  scenario.found.spool_time_constant_s = machines::Told(0.05, 0.08);
+  scenario.found.closing_time_constant_s = machines::Told(0.01, 0.02);
+  scenario.found.bypass_leak_factor = machines::Told(2.0, 3.0);
+  const plant::ExcavatorPlantProfile plant = arranged(nominal(), scenario).plant;
+  const plant::ExcavatorPlantProfile plain = plant_of(Errors::kAll, 7);
+  for (std::size_t i = 0; i < kDriveCount; ++i) {
+    const plant::SpoolDynamics& spool = plant.spool[i];
+    assert_true(spool.time_constant_s >= 0.05 && spool.time_constant_s < 0.08);
+    assert_true(spool.closing_time_constant_s >= 0.01 && spool.closing_time_constant_s < 0.02);
+    const double leaks =
+        plant.machine.valve.spool[i].bypass_closed / plain.machine.valve.spool[i].bypass_closed;
+    assert_true(leaks >= 2.0 && leaks < 3.0);
+    assert_near(spool.extend.deadband_ratio, plain.spool[i].extend.deadband_ratio, 0.0);
+  }
+  assert_true(plant.spool[0].time_constant_s != plant.spool[1].time_constant_s);
+  assert_near(plant.bulk_modulus_pa, plain.bulk_modulus_pa, 0.0);
+}
+
 /// What is told goes before what is drawn, with errors or without, and leaves the rest as it is.
 TEST(what_is_told_goes_before_what_is_drawn) {
   struct Told {
-    std::optional<double> Found::*key;
+    std::optional<machines::Told> Found::*key;
     double value;
     const char* of;  ///< How the names of the figures begin that it says.
     double factor;   ///< From the value to the figure where it is no factor on it.

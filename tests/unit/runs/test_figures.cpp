@@ -60,7 +60,8 @@ TEST(a_campaigns_columns_stay_as_they_are) {
                       "spool_travel_boom_ps,spool_travel_arm_ps,spool_travel_bucket_ps,"
                       "spool_reversals_boom_ps,spool_reversals_arm_ps,spool_reversals_bucket_ps,"
                       "tip_jerk_rms_mps3,ringing_rms_m,energy_per_loop_j,energy_j,"
-                      "energy_bypass_relief,swash_mean");
+                      "energy_bypass_relief,swash_mean,duty_travel_boom_ps,duty_travel_arm_ps,"
+                      "duty_sign_changes_boom_ps,duty_sign_changes_arm_ps");
   assert_string_equal(header(columns_of(grade_figures())).c_str(),
                       "max_error_true_m,rmse_error_true_m,max_error_measured_m,time_s,"
                       "flow_share_max,flow_above,flow_occasions,deceleration_wanted_mps2,"

@@ -20,6 +20,13 @@ TEST(texts_are_read) {
   assert_true(found.friction_factor == 1.5 && found.mass_factor == 0.85);
   assert_true(found.pump_flow_factor == 0.9 && found.engine_sag_ratio == 0.1);
   assert_true(found.dead_time_s == 0.03);
+  const machines::Found ranges =
+      found_of("spool_lag=0.015..0.08,spool_closes=5e-2,bypass_leak=1..3");
+  assert_true(ranges.spool_time_constant_s == machines::Told(0.015, 0.08));
+  assert_true(ranges.closing_time_constant_s == 0.05);
+  assert_true(ranges.bypass_leak_factor == machines::Told(1.0, 3.0));
+  assert_string_equal(found_text(ranges).c_str(),
+                      "spool_lag 0.015 .. 0.08 s, spool_closes 0.05 s, bypass_leak 1 .. 3");
   const machines::Found one = found_of("mass=1.1");
   assert_true(one.mass_factor == 1.1 && !one.bulk_modulus_gpa && !one.dead_time_s);
 }
@@ -41,7 +48,7 @@ TEST(wrong_texts_are_refused) {
     const char* allowed;
   } cases[] = {
       {"", "''", "oil (0.1 .. 100 GPa), exponent (0.5 .. 4), dead_band (0.1 .. 0.6)"},
-      {"colour=1", "'colour'", "engine_sag (0 .. 0.5), dead_time (0 .. 0.5 s)"},
+      {"colour=1", "'colour'", "spool_closes (0.001 .. 1 s), bypass_leak (0.1 .. 10)"},
       {"oil=1,,mass=1", "''", "mass (0.1 .. 10)"},
       {"oil=1,", "''", "mass (0.1 .. 10)"},
       {"=1", "''", "mass (0.1 .. 10)"},
@@ -60,6 +67,11 @@ TEST(wrong_texts_are_refused) {
       {"spool_lag=1.1", "spool_lag: '1.1'", "0.001 .. 1 s"},
       {"engine_sag=-0.1", "engine_sag: '-0.1'", "0 .. 0.5"},
       {"dead_time=0.51", "dead_time: '0.51'", "0 .. 0.5 s"},
+      {"dead_time=0.1..0.51", "dead_time: '0.51'", "0 .. 0.5 s"},
+      {"dead_time=0.2..0.1", "dead_time: '0.2..0.1'", "from less to more"},
+      {"dead_time=0.1..0.1", "dead_time: '0.1..0.1'", "from less to more"},
+      {"dead_time=0.1..", "dead_time: a value is missing", "0 .. 0.5 s"},
+      {"dead_time=..0.1", "dead_time: a value is missing", "0 .. 0.5 s"},
   };
   for (const auto& wrong : cases) {
     const std::string says = test::refusal_of([&] { return found_of(wrong.text); });
