@@ -248,7 +248,7 @@ TEST(the_edge_is_drawn_along_the_design) {
         assert_int_equal(hand.want.assist, AssistState::kHolds);
         least_m = std::min(least_m, hand.height_m());
       }
-      assert_true(least_m > -kDrift_m);
+      assert_near(std::min(0.0, least_m), 0.0, 2.5 * kDrift_m);  // It goes at 0.9 m/s.
       assert_near(hand.height_m(), 0.0, 0.01);
       assert_near(hand.want.wanted_mps[kArm], side * 0.232, 0.02);
       assert_near(hand.tip().attitude_rad, kStart.attitude_rad, kDrift_m);
@@ -257,13 +257,13 @@ TEST(the_edge_is_drawn_along_the_design) {
   }
 }
 
-/// Let go, it stands within a quarter of a second, and nothing goes on.
+/// Let go, it stands within 0.4 s from its fastest, by 4 m/s2, and nothing goes on.
 TEST(an_arm_that_is_let_go_stops_all) {
   Assisted hand(0.0);
   hand.ask.lever_ratio[kArm] = 1.0;
   hand.run(1.5);
   hand.ask.lever_ratio = {};
-  hand.run(0.25);
+  hand.run(0.4);
   assert_true(hand.want.wanted_mps.isZero(0.0));
   assert_int_equal(hand.want.assist, AssistState::kNear);
   const Eigen::Vector3d stands_m = hand.strokes_m;

@@ -7,7 +7,8 @@
 
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
-#include "firmware/excavator/motion/hand/assist.hpp"
+#include "firmware/excavator/fences/fence.hpp"
+#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "firmware/excavator/motion/hand/tuning.hpp"
 
 namespace graben {
@@ -15,6 +16,25 @@ namespace graben {
 /// What the levers ask for, softly started and stopped: speeds of the drives, m/s, or, where the
 /// teeth are led, theirs up and forward, m/s, of the attitude, rad/s, of the swing, m/s.
 using HandSpeed = DriveVector;
+
+/// The design under the bucket in the plane of the boom: x outwards, y up, from the boom foot's
+/// pin. With the edge's middle on that line none of its corners is under the design.
+struct AssistLine {
+  bool known = false;                             ///< There is a design.
+  Eigen::Vector2d up = Eigen::Vector2d::UnitY();  ///< Of length 1, out of the ground.
+  double from_foot_m = 0.0;                       ///< Of the pin to the line, along `up`.
+
+  [[nodiscard]] double height_m(const TipPose& tip) const {
+    return up.x() * tip.x_m + up.y() * tip.y_m - from_foot_m;
+  }
+  /// Outwards, along the surface.
+  [[nodiscard]] Eigen::Vector2d along() const { return {up.y(), -up.x()}; }
+};
+
+/// The design is the last of a program's fences. `shown_off_m`: the edge is shown so much too far
+/// outwards and up. The line lies assist.offset over the design.
+[[nodiscard]] AssistLine assist_line(const ExcavatorProfile& profile, const FenceSet& fences,
+                                     double swing_rad, const Eigen::Vector2d& shown_off_m);
 
 /// State from cycle to cycle.
 struct HandState {

@@ -39,7 +39,8 @@ inline constexpr double kAssistSlow_m = 0.015;
 /// Rate at which it speeds up again after that; it slows at once. [1/s; chosen: not tried]
 inline constexpr double kAssistPace_ps = 3.0;
 /// Distance under the design at which its fence stands while Assist holds the edge on it. [m;
-/// chosen: at 0.03 it held corrections back, and the boom swung by 0.1 m at 2.4 Hz]
+/// measured: `campaign assist`: at 0.03 it held corrections back, and the boom swung by 0.1 m
+/// at 2.4 Hz; at 1 the deepest cut was 97 mm instead of 55]
 inline constexpr double kAssistFence_m = 0.3;
 
 }  // namespace graben
