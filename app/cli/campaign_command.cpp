@@ -14,6 +14,7 @@
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
+#include "app/runs/assist_run.hpp"
 #include "app/runs/campaign_run.hpp"
 #include "app/runs/ground_campaign.hpp"
 
@@ -51,6 +52,15 @@ struct FenceCampaign {
   machines::SimulatedChoice simulated;
   std::string profile = "excavator_12t";
   std::string errors = "all";
+};
+
+struct AssistCampaign {
+  runs::CampaignOptions campaign;
+  ArrayOptions array;
+  machines::SimulatedChoice simulated;
+  std::string profile = "excavator_22t";
+  std::string errors = "all";
+  bool unmarked = false;
 };
 
 struct AutodigCampaign {
@@ -285,6 +295,37 @@ void add_campaign_fences(CLI::App& campaign, int& status) {
   on_callback(*command, options, status, campaign_fences);
 }
 
+void add_campaign_assist(CLI::App& campaign, int& status) {
+  auto options = std::make_shared<AssistCampaign>();
+  CLI::App* command = campaign.add_subcommand(
+      "assist",
+      fmt::format(
+          "An operator's arm lever draws the edge along a design: {} cells of 2 designs and "
+          "6 records of levers; cell after cell, then the next draw of each; goes on as dig "
+          "does",
+          runs::assist_cells()));
+  add_profile_option(*command, options->profile);
+  options->campaign.draws = 40 * runs::assist_cells();
+  add_campaign_options(*command, options->campaign);
+  command
+      ->add_option("--errors", options->errors,
+                   "What the controller does not know, as in campaign dig")
+      ->check(error_name())
+      ->capture_default_str();
+  command->add_flag("--unmarked", options->unmarked,
+                    "The edge was not touched to a mark at the start");
+  add_simulated_options(*command, options->simulated);
+  add_examples(*command, {"campaign assist --draws 24 --summary out/assist.csv"});
+  on_callback(*command, options, status,
+              [](const AssistCampaign& of, const runs::CampaignOptions& chosen,
+                 const runs::Progress& progress) {
+                return runs::campaign_assist(chosen,
+                                             machines::load_simulated_excavator(
+                                                 machines::find_profile(of.profile), of.simulated),
+                                             of.errors, !of.unmarked, progress);
+              });
+}
+
 void add_campaign_autodig(CLI::App& campaign, int& status) {
   auto options = std::make_shared<AutodigCampaign>();
   CLI::App* command = campaign.add_subcommand(
@@ -325,6 +366,7 @@ void add_campaign(CLI::App& app, int& status) {
   add_campaign_identify(*campaign, status);
   add_campaign_autodig(*campaign, status);
   add_campaign_fences(*campaign, status);
+  add_campaign_assist(*campaign, status);
   add_campaign_merge(*campaign, status);
   add_campaign_progress(*campaign, status);
   add_campaign_collect(*campaign, status);

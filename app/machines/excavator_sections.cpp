@@ -144,6 +144,15 @@ LineProfile read_line(TomlReader& reader) {
   return line;
 }
 
+AssistProfile read_assist(TomlReader& reader) {
+  AssistProfile assist;
+  assist.window_m = reader.number_or(0.3, "assist.window", {0.05, 1.0, "m"},
+                                     "task Assist holds the edge from this near to the design on");
+  assist.offset_m = reader.number_or(0.0, "assist.offset", {0.0, 0.5, "m"},
+                                     "so high over the design task Assist holds the edge");
+  return assist;
+}
+
 SpoolProfile read_spool(TomlReader& reader, const std::string& axis, int pump_count,
                         PumpKind kind) {
   SpoolProfile spool;
@@ -357,6 +366,7 @@ ExcavatorProfile read_excavator_sections(TomlReader& reader, const std::vector<K
   profile.drive_count = has_swing_drive(reader) ? kDriveCount : kAxisCount;
   profile.swing = read_swing(reader);
   profile.line = read_line(reader);
+  profile.assist = read_assist(reader);
   read_pumps(reader, profile);
   profile.valve =
       read_valve(reader, profile.pump_count, profile.drive_count, profile.pump[0].regulator.kind);

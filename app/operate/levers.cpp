@@ -14,7 +14,7 @@ bool is_at_rest(const Lever& lever) { return lever.right_ratio == 0.0 && lever.a
 bool Levers::are_at_rest() const { return is_at_rest(left) && is_at_rest(right); }
 
 Axes axes_of(const Levers& levers, Task task) {
-  const double outward = task == Task::kJog ? -1.0 : 1.0;
+  const double outward = task == Task::kCoordinated ? 1.0 : -1.0;
   return {-levers.right.away_ratio, outward * levers.left.away_ratio,
           outward * levers.right.right_ratio, -levers.left.right_ratio};
 }

@@ -90,7 +90,7 @@ std::string strokes_text(const EcuListener& ecu, TimeUs now) {
 std::string axes_text(const View& view) {
   const Axes& axes = view.request.axes;
   const auto percent = [](double ratio) { return std::lround(100.0 * ratio); };
-  const bool by_drive = view.chosen_task == Task::kJog;
+  const bool by_drive = view.chosen_task != Task::kCoordinated;
   return fmt::format("{} {:+d} %, {} {:+d} %, {} {:+d} %, swing {:+d} %", by_drive ? "boom" : "up",
                      percent(axes.boom_or_up_ratio), by_drive ? "arm" : "forward",
                      percent(axes.arm_or_forward_ratio), by_drive ? "bucket" : "attitude",
@@ -233,6 +233,8 @@ const char* task_words(Task task) {
       return "Jog";
     case Task::kCoordinated:
       return "Coordinated";
+    case Task::kAssist:
+      return "Assist";
     default:
       return "another task";
   }

@@ -43,7 +43,9 @@ Request Station::step(const Hands& hands, const Surroundings& around) {
     mode_ = mode_ == OperatorMode::kManual ? OperatorMode::kAutomatic : OperatorMode::kManual;
   }
   if (hands.changes_task && !was_on && !on) {
-    task_ = task_ == Task::kJog ? Task::kCoordinated : Task::kJog;
+    task_ = task_ == Task::kJog           ? Task::kCoordinated
+            : task_ == Task::kCoordinated ? Task::kAssist
+                                          : Task::kJog;
   }
   if (hands.speed_steps != 0) {
     speed_ratio_ = stepped(speed_ratio_, hands.speed_steps);

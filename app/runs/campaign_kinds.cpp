@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "app/machines/simulated/hidden.hpp"
+#include "app/runs/assist_run.hpp"
 #include "app/runs/autodig_run.hpp"
 #include "app/runs/campaign_run.hpp"
 #include "app/runs/dig_run.hpp"
@@ -87,8 +88,9 @@ const CampaignKind& autodig_kind() {
 
 const CampaignKind& kind_of(const std::string& file) {
   const std::string name = campaign_name(file);
-  for (const CampaignKind* kind : {&dig_kind(), &grade_kind(), &designs_kind(), &identify_kind(),
-                                   &autodig_kind(), &fence_kind(), &ground_kind()}) {
+  for (const CampaignKind* kind :
+       {&dig_kind(), &grade_kind(), &designs_kind(), &identify_kind(), &autodig_kind(),
+        &fence_kind(), &ground_kind(), &assist_kind()}) {
     if (name == kind->name) {
       return *kind;
     }

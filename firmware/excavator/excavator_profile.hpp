@@ -302,6 +302,12 @@ struct FenceProfile {
   double room_s = 0.0;           ///< this for each m/s of a point's planned speed.
 };
 
+/// Task::kAssist.
+struct AssistProfile {
+  double window_m = 0.0;  ///< The edge is held from this distance to the design on.
+  double offset_m = 0.0;  ///< It is held so high over the design.
+};
+
 /// Between these a pump's swash goes by what the motion needs.
 struct SwashRange {
   double least_ratio = 0.0;
@@ -316,6 +322,7 @@ struct ExcavatorProfile {
   SwingProfile swing;
   LineProfile line;
   FenceProfile fence;
+  AssistProfile assist;
   ValveProfile valve;
   int pump_count = kPumpCount;  ///< How many there are of them; the others stay at nothing.
   std::array<PumpProfile, kPumpCount> pump;

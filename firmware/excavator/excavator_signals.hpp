@@ -143,6 +143,15 @@ struct JointAngles {
   std::array<double, kAxisCount> stroke_m{};  ///< That they stand for.
 };
 
+/// What Task::kAssist does about its design; the numbers are on the bus.
+enum class AssistState : std::uint8_t {
+  kNone = 0,   ///< Another task, or there is no design.
+  kAway = 1,   ///< The edge is farther from it than assist.window.
+  kNear = 2,   ///< It will be held once the arm's lever moves.
+  kHolds = 3,  ///< Boom and bucket follow the arm.
+  kLetGo = 4,  ///< The boom's lever was raised, or the swing's moved: the arm's has to rest first.
+};
+
 /// Status of the excavator's controller.
 struct ExcavatorStatus : MachineStatus {
   JointAngles joints;  ///< Of a machine with IMUs or measured joints; told in every mode.
@@ -153,6 +162,7 @@ struct ExcavatorStatus : MachineStatus {
   double swing_wanted_radps = 0.0;  ///< Of a machine that swings.
   bool swings = false;
   TaskProgress progress;
+  AssistState assist = AssistState::kNone;
   std::array<LearntEdges, kAxisCount> edges{};
   TipLoad tip_load;  ///< Told in every mode.
 };

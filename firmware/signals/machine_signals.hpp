@@ -23,6 +23,7 @@ enum class Task : std::uint8_t {
   kJog = 4,          ///< Each drive by the operator's axis.
   kCoordinated = 5,  ///< The teeth by the operator's axes.
   kCommission = 6,   ///< Duties as the operator's station tries them, guarded.
+  kAssist = 7,       ///< As kJog; near the design the arm by its axis, the edge on the design.
 };
 
 struct OperatorInputs {

@@ -31,7 +31,8 @@ static_assert(same_code(BusTask::kProgram, Task::kProgram));
 static_assert(same_code(BusTask::kJog, Task::kJog));
 static_assert(same_code(BusTask::kCoordinated, Task::kCoordinated));
 static_assert(same_code(BusTask::kCommission, Task::kCommission));
-static_assert(same_code(bus::OperatorCommand::kTask.raw_max, Task::kCommission));
+static_assert(same_code(BusTask::kAssist, Task::kAssist));
+static_assert(same_code(bus::OperatorCommand::kTask.raw_max, Task::kAssist));
 
 using BusMark = bus::EcuChecks::Result;
 static_assert(same_code(BusMark::kNoMark, MarkResult::kNoMark));

@@ -27,6 +27,14 @@ static_assert(same_code(BusStep::kDone, StepKind::kDone));
 static_assert(same_code(BusStep::kWait, StepKind::kWait));
 static_assert(same_code(bus::TaskStatus::kStepKind.raw_max, StepKind::kWait));
 
+using BusAssist = bus::EcuMotion::Assist;
+static_assert(same_code(BusAssist::kNone, AssistState::kNone));
+static_assert(same_code(BusAssist::kAway, AssistState::kAway));
+static_assert(same_code(BusAssist::kNear, AssistState::kNear));
+static_assert(same_code(BusAssist::kHolds, AssistState::kHolds));
+static_assert(same_code(BusAssist::kLetGo, AssistState::kLetGo));
+static_assert(same_code(bus::EcuMotion::kAssist.raw_max, AssistState::kLetGo));
+
 void put_pressures(AxisInputs& axis, const dbc::Physical& cap, const dbc::Physical& rod,
                    TimeUs now) {
   put(axis.cap_pressure_pa, cap, now);
@@ -53,7 +61,7 @@ void put_window(const bus::CommissionWindow& message, TimeUs now, ExcavatorInput
 }
 
 struct Store : CommonStore<ExcavatorInputs, Task::kDig, Task::kProgram, Task::kJog,
-                           Task::kCoordinated, Task::kCommission> {
+                           Task::kCoordinated, Task::kCommission, Task::kAssist> {
   using CommonStore::part;
   using CommonStore::store;
 
@@ -182,6 +190,7 @@ bus::EcuMotion ecu_motion(const ExcavatorOutputs& outputs, const EcuDiagnosis&) 
   message.boom_wanted_velocity_mps = physical(status.wanted_velocity_mps[0]);
   message.arm_wanted_velocity_mps = physical(status.wanted_velocity_mps[1]);
   message.bucket_wanted_velocity_mps = physical(status.wanted_velocity_mps[2]);
+  message.assist = {static_cast<bus::EcuMotion::Assist>(status.assist), dbc::RawState::kValid};
   return message;
 }
 

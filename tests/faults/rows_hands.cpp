@@ -43,7 +43,8 @@ plant::OperatorHands begin_by_hand(Trial<Excavator>& trial, Task task, bool alik
 
 /// The station sends all but what its hands do.
 void hands_silent(Trial<Excavator>& trial) {
-  constexpr std::array<Task, 3> kTasks = {Task::kJog, Task::kCoordinated, Task::kCommission};
+  constexpr std::array<Task, 4> kTasks = {Task::kJog, Task::kAssist, Task::kCoordinated,
+                                          Task::kCommission};
   const Task task = kTasks[trial.seed() % kTasks.size()];
   plant::OperatorHands hands = begin_by_hand(trial, task);
   auto& rig = *trial.rig;

@@ -92,9 +92,7 @@ class Wire {
     last_us_ = now_us;
     return wrong;
   }
-  void asked(Task task) {
-    by_hand_ = task == Task::kCommission || task == Task::kJog || task == Task::kCoordinated;
-  }
+  void asked(Task task) { by_hand_ = task == Task::kCommission || is_by_lever(task); }
 
  private:
   using Duties = std::array<double, kDriveCount>;
@@ -183,7 +181,8 @@ bool inputs_are_numbers() { return true; }
 
 std::vector<Bytes> seed_inputs() {
   std::vector<Bytes> seeds;
-  for (const Task task : {Task::kDig, Task::kCommission, Task::kJog, Task::kCoordinated}) {
+  for (const Task task :
+       {Task::kDig, Task::kCommission, Task::kJog, Task::kCoordinated, Task::kAssist}) {
     RawRun run{};
     for (unsigned n = 0; n < kCycles; ++n) {
       const TimeUs now_us = kStart_us + (n + 1) * kPeriod_us;

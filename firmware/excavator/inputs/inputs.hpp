@@ -50,9 +50,4 @@ void guard_tried_duties(DriveRows drives, const Cycle& cycle, const LastCommands
 /// True where a velocity field leads the teeth (motion/field).
 [[nodiscard]] inline bool is_by_field(Task task) { return task == Task::kDig; }
 
-/// True where the task is to move something by the operator's levers.
-[[nodiscard]] inline bool is_by_lever(Task task) {
-  return task == Task::kJog || task == Task::kCoordinated;
-}
-
 }  // namespace graben

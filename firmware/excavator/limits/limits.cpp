@@ -41,7 +41,8 @@ void hold_at_fences(const ExcavatorModel& machine, const InputState& inputs,
 void park_spools(const ExcavatorModel& machine, const ExcavatorValid& valid,
                  const EstimationState& estimates, double period_s, const LastCycle& last,
                  Motion& motion, LimitState& state) {
-  if (!is_by_field(valid.task) || estimates.oil.weight < kOilLeads || motion.eases) {
+  const bool parks = is_by_field(valid.task) || motion.hand.assist == AssistState::kHolds;
+  if (!parks || estimates.oil.weight < kOilLeads || motion.eases) {
     state.parking = {};
     return;
   }

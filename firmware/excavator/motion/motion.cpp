@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/excavator/motion/motion.hpp"
 
+#include <cmath>
+
 #include "firmware/excavator/motion/on_oil.hpp"
 #include "firmware/excavator/motion/tuning.hpp"
 #include "firmware/excavator/swing.hpp"
@@ -14,7 +16,8 @@ double path_error_m(const RoundedRectangle& path, const TipPose& tip) {
 }
 
 HandAsk hand_ask(const ExcavatorValid& valid) {
-  return {valid.task, valid.lever_ratio, valid.speed_override_ratio, valid.external.speed_ratio};
+  return {
+      valid.task, valid.lever_ratio, valid.speed_override_ratio, valid.external.speed_ratio, {}};
 }
 
 /// The program that is being followed and goes on to be asked for; null without one.
@@ -105,28 +108,51 @@ void follow(const Known& of, const TaskProgram& program, const MotionMemory& sta
   motion.off_m = motion.task.off_m;
 }
 
+/// The chosen program's design, and by how much the last check at the mark has shown heights over
+/// it too high.
+void look_at_design(const Known& of, HandAsk& ask, Motion& motion) {
+  const ExcavatorProfile& profile = of.machine.profile;
+  const Eigen::Vector3d& off_m = of.last.mark.told.off_m;
+  const Eigen::Vector2d shown_off_m(off_m.x(), off_m.z());
+  const double swing_rad =
+      profile.has_swing() ? of.estimates.servo.strokes_m()[kSwing] / profile.swing.lever_m : 0.0;
+  ask.design = assist_line(profile, *motion.fences, swing_rad, shown_off_m);
+  motion.zero_m = ask.design.up.dot(shown_off_m);
+}
+
 /// By the levers.
 void steer(const Known& of, const HandState& hand, Motion& motion) {
   const ExcavatorValid& valid = of.valid;
   const DriveRows& drives = of.machine.drives;
-  const bool jogs = valid.task == Task::kJog;
-  motion.hand =
-      want_by_hand(of.machine.profile, drives, of.machine.kinematics.planar(), of.estimates.pose,
-                   of.estimates.servo, hand_ask(valid), hand, of.period_s);
-  motion.wanted_mps = motion.hand.wanted_mps;
-  motion.task.pace_ratio = jogs ? 1.0 : hand.pace_ratio;
-  motion.corrected_mps =
-      corrected_velocity(drives, motion.wanted_mps, of.estimates.servo, of.last.flow.lambda,
-                         valid.speed_override_ratio, !jogs && motion.hand.moves);
-  for (int i = 0; jogs && i < kDriveCount; ++i) {
-    motion.corrected_mps[i] = motion.wanted_mps[i] == 0.0 ? 0.0 : motion.corrected_mps[i];
-  }
   // Fences are those of the task that is chosen, or of the first.
   const TaskBook& book = of.sources.book;
   const bool chosen = valid.task_number >= 0 && valid.task_number < book.count;
   motion.fences = &book.program[chosen ? static_cast<unsigned>(valid.task_number) : 0U].fences;
+  HandAsk ask = hand_ask(valid);
+  if (valid.task == Task::kAssist) {
+    look_at_design(of, ask, motion);
+  }
+  const double lambda = of.last.flow.lambda;
+  motion.hand = want_by_hand(of.machine.profile, drives, of.machine.kinematics.planar(),
+                             of.estimates.pose, of.estimates.servo, ask, hand, of.period_s);
+  const bool leads = motion.hand.leads;
+  motion.wanted_mps = motion.hand.wanted_mps;
+  motion.task.pace_ratio = leads ? hand.pace_ratio : 1.0;
+  motion.corrected_mps = corrected_velocity(drives, motion.wanted_mps, of.estimates.servo, lambda,
+                                            valid.speed_override_ratio, leads && motion.hand.moves);
+  for (int i = 0; !leads && i < kDriveCount; ++i) {
+    motion.corrected_mps[i] = motion.wanted_mps[i] == 0.0 ? 0.0 : motion.corrected_mps[i];
+  }
   motion.path_error_m = motion.hand.error_m;
   motion.off_m = motion.hand.error_m;
+  if (motion.hand.assist == AssistState::kHolds) {
+    motion.zero_m -= kAssistFence_m;
+    motion.task.holds = motion.hand.moves;
+    motion.task.planned_m = motion.hand.planned_m;
+    correct_off_plan(of.machine, of.sources, of.estimates, lambda, valid.speed_override_ratio,
+                     motion);
+    motion.path_error_m = std::abs(ask.design.height_m(of.estimates.pose.tip));
+  }
 }
 
 /// Not inlined: what it makes would lie on the stack below the next search for a way.
@@ -146,7 +172,7 @@ MotionUnderWay motion_under_way(const ExcavatorModel& machine, const TaskBook& b
   motion.on_plan = state.aim.kind != StepKind::kNone || hand.plans;
   motion.new_plan = hand.plans ? hand.is_new : state.task.state.time_s == 0.0;
   motion.planned_m = hand.plans ? hand.planned_m : travel_of(machine.profile, state.aim.value);
-  motion.for_oil = is_by_field(valid.task) || state.aim.cuts;
+  motion.for_oil = is_by_field(valid.task) || state.aim.cuts || hand.assist == AssistState::kHolds;
   return motion;
 }
 

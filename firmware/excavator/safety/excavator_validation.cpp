@@ -57,7 +57,7 @@ void read_hands(const ExcavatorInputs& inputs, const Freshness& fresh, TimeUs no
                 ExcavatorValid& valid) {
   const bool has_levers = read_all(inputs.lever_ratio, fresh, valid.lever_ratio);
   const bool has_duties = read_all(inputs.tried_ratio, fresh, valid.tried_ratio);
-  const bool by_lever = valid.task == Task::kJog || valid.task == Task::kCoordinated;
+  const bool by_lever = is_by_lever(valid.task);
   const bool tries = valid.task == Task::kCommission;
   if ((by_lever && !has_levers) || (tries && !has_duties)) {
     valid.faults.add(Fault::kOperatorMissing);

@@ -13,6 +13,11 @@
 
 namespace graben {
 
+/// True where the task is to move something by the operator's levers.
+[[nodiscard]] inline bool is_by_lever(Task task) {
+  return task == Task::kJog || task == Task::kCoordinated || task == Task::kAssist;
+}
+
 /// Inputs that may be used; what the machine does not have stays 0. Of the swing motor the left
 /// port counts as cap, the right one as rod side.
 struct ExcavatorValid : CommonValid {

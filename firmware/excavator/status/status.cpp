@@ -12,7 +12,8 @@ namespace {
 
 /// It is laid around a path or a plan.
 bool has_tube(Task task) {
-  return is_by_field(task) || task == Task::kProgram || task == Task::kCoordinated;
+  return is_by_field(task) || task == Task::kProgram || task == Task::kCoordinated ||
+         task == Task::kAssist;
 }
 
 /// Shown teeth less mark, as the links look: outwards, to the left, up.
@@ -80,6 +81,7 @@ void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const 
   status.swings = machine.profile.has_swing();
   status.swing_wanted_radps = swing_of(drives_of(machine.profile, motion.wanted_mps));
   status.progress = motion.task.progress;
+  status.assist = motion.hand.assist;
   std::copy_n(solution.point.pump_pressure_pa.begin(), kPumpCount, status.pump_pressure_pa.begin());
 }
 
@@ -114,7 +116,7 @@ void remember(const ExcavatorModel& machine, const ExcavatorValid& valid, const 
   last.expected_mps = of_way * motion.cap.factor * motion.wanted_mps;
   last.swing_wanted_mps = swing_of(motion.task.wanted_mps);
   const bool by_lever = active && is_by_lever(valid.task);
-  last.jogs = by_lever && valid.task == Task::kJog;
+  last.jogs = by_lever && !motion.hand.leads;
   const SafetyProfile& safety = machine.profile.safety;
   next_tube(active && has_tube(valid.task), motion.off_m, safety.tube_m, last.tube);
   // A plan that waits for its drives asks for motion though it wants none now.

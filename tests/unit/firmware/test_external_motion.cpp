@@ -108,7 +108,7 @@ void assert_stopped(const ExcavatorOutputs& outputs) {
 /// In the levers' tasks of what full levers ask for, else of what it would ask for now.
 void check_cycle(const Watched& before, Watched& now, double most) {
   const Task task = before.machine.driver.task.value;
-  if (task != Task::kJog && task != Task::kCoordinated) {
+  if (!is_by_lever(task)) {
     const Watched twin = unlimited(before);
     const double ratio = wanted_mps(now).norm() / std::max(1e-12, wanted_mps(twin).norm());
     assert_true(ratio <= most + kRounding);
@@ -171,7 +171,8 @@ void hear_words(const Watched& base, const HandSpeed& full, Words& words) {
 
 TEST(an_excavator_is_never_faster_than_a_word_in_any_task) {
   Words words(2101);
-  for (const Task task : {Task::kDig, Task::kProgram, Task::kJog, Task::kCoordinated}) {
+  for (const Task task :
+       {Task::kDig, Task::kProgram, Task::kJog, Task::kCoordinated, Task::kAssist}) {
     const Watched base = under_way(task);
     const HandSpeed most = full_levers(base.machine.profile, task);
     repeat(test::rounds(200, 10), [&] { hear_words(base, most, words); });

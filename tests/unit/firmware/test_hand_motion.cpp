@@ -212,3 +212,135 @@ TEST(no_stored_speed_is_too_fast) {
   hand.step();
   assert_true(hand.want.wanted_mps.cwiseAbs().maxCoeff() < 0.32);
 }
+
+/// A design through the start, or so far under it, and rising outwards by `slope`.
+FenceSet design(double under_m, double slope) {
+  const Eigen::Vector2d& foot_m = profile().geometry.boom_foot_m;
+  DesignPlane plane;
+  plane.through_m << foot_m.x() + kStart.x_m, 0.0, foot_m.y() + kStart.y_m - under_m;
+  plane.up = Eigen::Vector3d(-slope, 0.0, 1.0).normalized();
+  FenceSet fences;
+  fences.count = 1;
+  fences.fence[0] = plane.fence();
+  return fences;
+}
+
+/// With the task's window of 0.3 m.
+struct Assisted : Hand {
+  explicit Assisted(double under_m, double slope = 0.0) : Hand(Task::kAssist) {
+    ask.design = assist_line(profile(), design(under_m, slope), 0.0, Eigen::Vector2d::Zero());
+    step();
+  }
+  [[nodiscard]] double height_m() const { return ask.design.height_m(tip()); }
+};
+
+/// Both ways, level and on a slope of 1:2, from 5 cm over it: onto it, never under it, as fast as
+/// the arm alone would go, at the attitude that the bucket had.
+TEST(the_edge_is_drawn_along_the_design) {
+  for (const double slope : {0.0, 0.5}) {
+    for (const double side : {1.0, -1.0}) {
+      Assisted hand(0.05, slope);
+      assert_int_equal(hand.want.assist, AssistState::kNear);
+      hand.ask.lever_ratio[kArm] = side;
+      double least_m = 1.0;
+      for (int n = 0; n < 170; ++n) {
+        hand.step();
+        assert_int_equal(hand.want.assist, AssistState::kHolds);
+        least_m = std::min(least_m, hand.height_m());
+      }
+      assert_near(std::min(0.0, least_m), 0.0, 2.5 * kDrift_m);  // It goes at 0.9 m/s.
+      assert_near(hand.height_m(), 0.0, 0.01);
+      assert_near(hand.want.wanted_mps[kArm], side * 0.232, 0.02);
+      assert_near(hand.tip().attitude_rad, kStart.attitude_rad, kDrift_m);
+      assert_true(side * (hand.tip().x_m - kStart.x_m) < -0.3);
+    }
+  }
+}
+
+/// Let go, it stands within 0.4 s from its fastest, by 4 m/s2, and nothing goes on.
+TEST(an_arm_that_is_let_go_stops_all) {
+  Assisted hand(0.0);
+  hand.ask.lever_ratio[kArm] = 1.0;
+  hand.run(1.5);
+  hand.ask.lever_ratio = {};
+  hand.run(0.4);
+  assert_true(hand.want.wanted_mps.isZero(0.0));
+  assert_int_equal(hand.want.assist, AssistState::kNear);
+  const Eigen::Vector3d stands_m = hand.strokes_m;
+  hand.run(1.0);
+  assert_true(hand.strokes_m == stands_m);
+}
+
+/// At once, and until the arm's lever has been at rest.
+TEST(boom_up_and_swing_win) {
+  for (const unsigned lever : {0U, 3U}) {
+    Assisted hand(0.0);
+    hand.ask.lever_ratio[kArm] = -1.0;
+    hand.run(1.0);
+    hand.ask.lever_ratio[lever] = 0.2;
+    hand.step();
+    assert_int_equal(hand.want.assist, AssistState::kLetGo);
+    assert_true(hand.want.wanted_mps[kBoom] >= 0.0);
+    hand.run(0.1);
+    hand.ask.lever_ratio[lever] = 0.0;
+    hand.step();
+    assert_int_equal(hand.want.assist, AssistState::kLetGo);
+    hand.ask.lever_ratio[kArm] = 0.0;
+    hand.step();
+    hand.ask.lever_ratio[kArm] = -1.0;
+    hand.step();
+    assert_int_equal(hand.want.assist, AssistState::kHolds);
+  }
+}
+
+/// Boom down does not press the edge under the design, the bucket's lever turns the bucket on it.
+TEST(other_levers_keep_to_the_design) {
+  Assisted hand(0.0);
+  hand.ask.lever_ratio = {-1.0, 0.5, 0.5, 0.0};
+  hand.run(0.8);
+  assert_int_equal(hand.want.assist, AssistState::kHolds);
+  assert_near(hand.height_m(), 0.0, kDrift_m);
+  assert_true(hand.tip().attitude_rad < kStart.attitude_rad - 0.1);
+}
+
+/// Beyond its window, without a design and in other tasks each drive goes by its own lever; once in
+/// the window it stays in until a fifth beyond.
+TEST(away_from_a_design_drives_are_jogged) {
+  Assisted away(0.31);
+  Assisted none(0.0);
+  none.ask.design.known = false;
+  Hand jog(Task::kJog);
+  for (Hand* hand : {static_cast<Hand*>(&away), static_cast<Hand*>(&none), &jog}) {
+    hand->ask.lever_ratio[kArm] = -0.5;
+    hand->run(0.4);
+    assert_true(hand->want.wanted_mps == jog.want.wanted_mps || hand != &jog);
+    assert_near(hand->want.wanted_mps[kArm], -0.116, 1e-3);
+    assert_near(hand->want.wanted_mps[kBoom], 0.0, 0.0);
+  }
+  assert_int_equal(away.want.assist, AssistState::kAway);
+  assert_int_equal(none.want.assist, AssistState::kNone);
+  Assisted kept(0.29);
+  kept.ask.design.from_foot_m -= 0.05;
+  kept.step();
+  assert_int_equal(kept.want.assist, AssistState::kNear);
+  kept.ask.design.from_foot_m -= 0.05;
+  kept.step();
+  assert_int_equal(kept.want.assist, AssistState::kAway);
+}
+
+/// No corner of the edge comes under a design that falls across the machine; what the mark has
+/// shown too high and the offset count.
+TEST(the_line_is_that_of_the_lower_corner) {
+  ExcavatorProfile wide = profile();
+  wide.assist.offset_m = 0.1;
+  FenceSet fences = design(0.0, 0.0);
+  fences.fence[0].normal = -Eigen::Vector3d(0.0, 0.1, 1.0).normalized();
+  fences.fence[0].offset_m = 0.0;
+  const double half_m = 0.5 * wide.geometry.body.bucket_width_m;
+  const AssistLine line = assist_line(wide, fences, 0.0, {0.0, 0.02});
+  assert_near(line.from_foot_m, 0.1 * half_m + 0.1 + 0.02 - wide.geometry.boom_foot_m.y(), 1e-12);
+  // Turned to the left it rises outwards.
+  const AssistLine left = assist_line(wide, fences, 0.5 * kPi, {0.0, 0.0});
+  assert_near(left.along().y() / left.along().x(), -0.1, 1e-12);
+  assert_false(assist_line(wide, FenceSet{}, 0.0, {0.0, 0.0}).known);
+}

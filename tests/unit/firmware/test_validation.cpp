@@ -245,8 +245,9 @@ TEST(what_the_hands_do_is_read) {
 
 /// Only the task that goes by them needs them, as fresh as all that the operator gives.
 TEST(a_task_by_hand_needs_its_hands) {
-  for (const Task task : {Task::kDig, Task::kJog, Task::kCoordinated, Task::kCommission}) {
-    const bool by_lever = task == Task::kJog || task == Task::kCoordinated;
+  for (const Task task :
+       {Task::kDig, Task::kJog, Task::kCoordinated, Task::kCommission, Task::kAssist}) {
+    const bool by_lever = task != Task::kDig && task != Task::kCommission;
     ExcavatorInputs inputs = complete_inputs(kNow);
     inputs.driver.task.value = task;
     assert_int_equal(fault_of(inputs), task == Task::kDig ? Fault::kNone : Fault::kOperatorMissing);

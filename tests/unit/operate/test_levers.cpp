@@ -84,6 +84,7 @@ TEST(a_push_moves_as_on_an_excavator) {
   Levers levers;
   levers.left.away_ratio = 0.5;  // Arm out: the teeth go forward, the cylinder retracts.
   check(axes_of(levers, Task::kJog), 0.0, -0.5, 0.0, 0.0);
+  check(axes_of(levers, Task::kAssist), 0.0, -0.5, 0.0, 0.0);
   check(axes_of(levers, Task::kCoordinated), 0.0, 0.5, 0.0, 0.0);
   levers = {};
   levers.left.right_ratio = 0.5;  // Swing to the right.

@@ -137,6 +137,8 @@ TEST(axes_have_the_tasks_names) {
   View view = view_of(ecu);
   view.request.axes = {0.5, -0.25, 0.0, 1.0};
   check_has(text_of(view), "boom +50 %, arm -25 %, bucket +0 %, swing +100 %");
+  view.chosen_task = Task::kAssist;
+  check_has(text_of(view), "boom +50 %, arm -25 %, bucket +0 %, swing +100 %");
   view.chosen_task = Task::kCoordinated;
   check_has(text_of(view), "up +50 %, forward -25 %, attitude +0 %, swing +100 %");
 }

@@ -125,9 +125,11 @@ TEST(mode_and_task_change_at_a_press) {
   assert_true(station.chosen_task() == Task::kCoordinated);
   assert_true(station.step(held_press, kArmed).task == Task::kCoordinated);
   assert_true(station.chosen_task() == Task::kCoordinated);
-  static_cast<void>(station.step({}, kReady));
-  static_cast<void>(station.step(press, kReady));
-  assert_true(station.chosen_task() == Task::kJog);
+  for (const Task next : {Task::kAssist, Task::kJog}) {
+    static_cast<void>(station.step({}, kReady));
+    static_cast<void>(station.step(press, kReady));
+    assert_true(station.chosen_task() == next);
+  }
 }
 
 TEST(speed_goes_by_tenths_and_stops_at_its_ends) {

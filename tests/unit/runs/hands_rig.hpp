@@ -14,8 +14,9 @@ namespace graben::test {
 /// Armed, and at its task with the hands at rest, once constructed.
 struct HandsRig : runs::ExcavatorRig {
   HandsRig(const machines::SimulatedExcavator& machine, const Eigen::Vector3d& start_m,
-           Task by_hand)
-      : LoopbackRig(machine, machine.profile, runs::start_at(start_m), by_hand, 1.0),
+           Task by_hand, const TaskBook& book = {})
+      : LoopbackRig(machine, ExcavatorSetup(machine.profile, book), runs::start_at(start_m),
+                    by_hand, 1.0),
         kinematics(machine.profile.geometry) {
     driver.set_hands(hands);
   }

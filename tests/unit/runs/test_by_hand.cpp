@@ -197,3 +197,44 @@ TEST(the_deadman_is_neutral_at_once) {
     assert_int_equal(rig.status().fault, Fault::kNone);
   }
 }
+
+/// Drawn out along a level design and in again by the arm's lever alone: within 15 mm of it, told
+/// on the bus; let go, it stops there; boom up lets go of it at once.
+TEST(assist_holds_the_edge_on_the_design) {
+  TaskBook book;
+  book.count = 1;
+  DesignPlane plane;
+  plane.through_m.z() = test::excavator().profile.geometry.boom_foot_m.y() + kStart.y_m - 0.02;
+  book.program[0].fences.count = 1;
+  book.program[0].fences.fence[0] = plane.fence();
+  HandsRig rig(test::excavator(), start_m(), Task::kAssist, book);
+  rig.work();
+  assert_int_equal(rig.status().assist, AssistState::kNear);
+  const double level_m = kStart.y_m - 0.02;
+  for (const double side : {-1.0, 1.0}) {
+    const double from_m = rig.tip().x_m;
+    rig.hands.lever_ratio[kArm] = side;
+    for (int n = 0; n < 250; ++n) {
+      rig.cycle();
+      assert_int_equal(rig.status().fault, Fault::kNone);
+      assert_true(n < 100 || std::abs(rig.tip().y_m - level_m) < 0.015);
+    }
+    assert_int_equal(rig.status().assist, AssistState::kHolds);
+    assert_true(side * (rig.tip().x_m - from_m) < -0.8);
+    rig.hands.lever_ratio = {};
+    rig.run(1.0);
+    assert_int_equal(rig.status().assist, AssistState::kNear);
+    assert_near(rig.tip().y_m, level_m, 0.015);
+    const TipPose stands = rig.tip();
+    rig.run(2.0);
+    assert_near(rig.tip().x_m, stands.x_m, 0.003);
+    assert_near(rig.tip().y_m, stands.y_m, 0.003);
+  }
+  rig.hands.lever_ratio[kArm] = -0.5;
+  rig.run(1.0);
+  rig.hands.lever_ratio[kBoom] = 0.5;
+  rig.run(0.03);
+  assert_int_equal(rig.status().assist, AssistState::kLetGo);
+  rig.run(1.0);
+  assert_true(rig.tip().y_m > level_m + 0.1);
+}

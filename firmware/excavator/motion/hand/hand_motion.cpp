@@ -11,7 +11,7 @@
 namespace graben {
 namespace {
 
-/// Lever of Coordinated that raises the teeth. [-; standard: BoomOrUp is the first of OperatorAxes]
+/// Lever that raises teeth that are led. [-; standard: BoomOrUp is the first of OperatorAxes]
 constexpr int kUp = 0;
 /// Lever that moves them forward. [-; standard: ArmOrForward is the second of OperatorAxes]
 constexpr int kForward = 1;
@@ -22,27 +22,30 @@ constexpr int kAttitude = 2;
 struct HandRange {
   HandSpeed most = HandSpeed::Zero();
   HandSpeed change_ps = HandSpeed::Zero();
+  double arm_mps = 0.0;  ///< Of the arm by its own lever.
 };
 
-HandRange hand_range(const ExcavatorProfile& profile, Task task) {
+HandRange hand_range(const ExcavatorProfile& profile, bool leads, bool assists) {
   const DriveLimits limits = drive_limits(profile);
   HandRange range{travel_of(profile, limits.speed_out), travel_of(profile, limits.acceleration)};
-  if (task == Task::kCoordinated) {
+  range.arm_mps = range.most[kArm];
+  if (leads) {
+    const double tip_mps = assists ? kAssistFastest_mps : profile.dig_speed_mps;
     const double attitude_radps = profile.control.attitude_rate_max_radps;
-    const double tip_mps2 = kHandBrisk * profile.line.acceleration_mps2;
-    range.most.head<3>() << profile.dig_speed_mps, profile.dig_speed_mps, attitude_radps;
+    const double tip_mps2 = (assists ? 1.0 : kHandBrisk) * profile.line.acceleration_mps2;
+    range.most.head<3>() << tip_mps, tip_mps, attitude_radps;
     range.change_ps.head<3>() << tip_mps2, tip_mps2, attitude_radps / kHandAttitudeRise_s;
   }
   return range;
 }
 
 /// Up and forward change together, so that a way that begins or ends is straight.
-HandSpeed softened(const HandRange& range, Task task, const HandSpeed& target, HandSpeed last,
+HandSpeed softened(const HandRange& range, bool leads, const HandSpeed& target, HandSpeed last,
                    double period_s) {
   last = last.cwiseMin(range.most).cwiseMax(-range.most);
   HandSpeed change = target - last;
   int first = 0;
-  if (task == Task::kCoordinated) {
+  if (leads) {
     const double most = range.change_ps[kUp] * period_s;
     const double wanted = change.head<2>().norm();
     change.head<2>() *= wanted > most ? most / wanted : 1.0;
@@ -56,12 +59,12 @@ HandSpeed softened(const HandRange& range, Task task, const HandSpeed& target, H
 }
 
 /// One factor on all, so that the direction stays.
-void hold_outside(const HandRange& range, const HandAsk& ask, HandSpeed& speed) {
+void hold_outside(const HandRange& range, bool leads, const HandAsk& ask, HandSpeed& speed) {
   if (ask.most_ratio >= 1.0) {
     return;
   }
   VelocityCap cap;
-  if (ask.task == Task::kCoordinated) {
+  if (leads) {
     cap.tighten(speed.head<2>().norm(), ask.most_ratio * range.most[kUp], {});
   }
   for (int i = 0; i < kDriveCount; ++i) {
@@ -70,16 +73,54 @@ void hold_outside(const HandRange& range, const HandAsk& ask, HandSpeed& speed) 
   speed *= cap.factor;
 }
 
-HandSpeed target_of(const HandRange& range, const HandAsk& ask, bool released) {
-  HandSpeed levers = HandSpeed::Zero();
-  if (released) {
-    levers = HandSpeed(ask.lever_ratio.data()).cwiseMin(1.0).cwiseMax(-1.0);
-  }
+HandSpeed levers_of(const HandAsk& ask, bool released) {
+  return released ? HandSpeed(HandSpeed(ask.lever_ratio.data()).cwiseMin(1.0).cwiseMax(-1.0))
+                  : HandSpeed(HandSpeed::Zero());
+}
+
+HandSpeed target_of(const HandRange& range, bool leads, const HandAsk& ask, bool released) {
+  HandSpeed levers = levers_of(ask, released);
   const double both = levers.head<2>().norm();
-  if (ask.task == Task::kCoordinated && both > 1.0) {
+  if (leads && both > 1.0) {
     levers.head<2>() /= both;
   }
   return ask.speed_override_ratio * range.most.cwiseProduct(levers);
+}
+
+AssistState assist_of(const AssistProfile& assist, const HandAsk& ask, const KinematicState& now,
+                      const HandState& state) {
+  if (ask.task != Task::kAssist || !ask.design.known) {
+    return AssistState::kNone;
+  }
+  const double most_m = assist.window_m * (state.assist > AssistState::kAway ? kAssistKeeps : 1.0);
+  if (now.status != ReachStatus::kOk || !(std::abs(ask.design.height_m(now.tip)) <= most_m)) {
+    return AssistState::kAway;
+  }
+  const HandSpeed levers = levers_of(ask, state.released);
+  const bool pulls = levers[kArm] != 0.0;
+  if (levers[kBoom] > 0.0 || levers[kSwing] != 0.0 ||
+      (pulls && state.assist == AssistState::kLetGo)) {
+    return AssistState::kLetGo;
+  }
+  return pulls || state.plans ? AssistState::kHolds : AssistState::kNear;
+}
+
+/// Along the design as fast as the arm's lever alone moves the arm, and onto it the faster, the
+/// farther off the edge still is. `tip` is where it will be.
+HandSpeed along_design(const HandRange& range, const HandAsk& ask, const KinematicState& now,
+                       const TipPose& tip, bool released) {
+  const HandSpeed levers = ask.speed_override_ratio * levers_of(ask, released);
+  const Eigen::Vector2d along = ask.design.along();
+  const double arm = now.jacobian_inverse.row(kArm).head<2>().dot(along);
+  // Extending, the arm draws in.
+  const double speed_mps =
+      -levers[kArm] * range.arm_mps / std::max(std::abs(arm), range.arm_mps / range.most[kForward]);
+  const double off =
+      std::clamp(ask.design.height_m(tip) / kAssistOnto_m, -kAssistSteepest, kAssistSteepest);
+  const Eigen::Vector2d tip_mps = speed_mps * along - std::abs(speed_mps) * off * ask.design.up;
+  HandSpeed target = HandSpeed::Zero();
+  target.head<3>() << tip_mps.y(), tip_mps.x(), -levers[kBucket] * range.most[kAttitude];
+  return target;
 }
 
 /// Before the end of a drive, or so far from it.
@@ -127,26 +168,33 @@ double distance_m(const TipPose& one, const TipPose& other) {
   return std::hypot(one.x_m - other.x_m, one.y_m - other.y_m);
 }
 
-/// Teeth where all that has arrived by now should have brought them.
+/// Teeth where all that has arrived by now should have brought them; before a design only off it.
 double error_m(DriveRows drives, const ExcavatorKinematics& kinematics, const KinematicState& now,
-               const ExcavatorServo& servo, const DriveVector& planned_m) {
+               const ExcavatorServo& servo, const AssistLine& design,
+               const DriveVector& planned_m) {
   DriveVector due_m = planned_m - servo.under_way_m();
   for (int i = 0; i < kAxisCount; ++i) {
     due_m[i] = std::clamp(due_m[i], drives[i].least_travel_m, drives[i].most_travel_m);
   }
   const KinematicState due = kinematics.state(due_m.head<kAxisCount>());
-  return due.status == ReachStatus::kOk ? distance_m(due.tip, now.tip) : 0.0;
+  if (due.status != ReachStatus::kOk) {
+    return 0.0;
+  }
+  return design.known ? std::abs(design.height_m(due.tip) - design.height_m(now.tip))
+                      : distance_m(due.tip, now.tip);
 }
 
 void lead_teeth(DriveRows drives, const ExcavatorKinematics& kinematics, const KinematicState& now,
-                const ExcavatorServo& servo, const HandState& state, HandWant& want) {
+                const ExcavatorServo& servo, const AssistLine& design, const HandState& state,
+                HandWant& want) {
   want.tip = state.plans ? state.tip : now.tip;
   want.planned_m = state.plans ? state.planned_m : servo.strokes_m();
   want.moves = !want.speed.isZero(0.0);
   if (!want.moves || now.status != ReachStatus::kOk) {
     return;
   }
-  want.error_m = state.plans ? error_m(drives, kinematics, now, servo, want.planned_m) : 0.0;
+  want.error_m =
+      state.plans ? error_m(drives, kinematics, now, servo, design, want.planned_m) : 0.0;
   const TipPose rate = moved({}, want.speed, 1.0);
   const PathMotion here = kinematics.motion_from_pose(want.tip, rate, {});
   const PathMotion ahead =
@@ -170,23 +218,56 @@ void lead_teeth(DriveRows drives, const ExcavatorKinematics& kinematics, const K
 
 }  // namespace
 
+AssistLine assist_line(const ExcavatorProfile& profile, const FenceSet& fences, double swing_rad,
+                       const Eigen::Vector2d& shown_off_m) {
+  AssistLine line;
+  const Fence& last = fences.fence[fences.count > 0 ? static_cast<unsigned>(fences.count - 1) : 0U];
+  line.known = fences.count > 0 && last.guard == FenceGuard::kTeeth;
+  if (!line.known) {
+    return line;
+  }
+  const double cosine = std::cos(swing_rad);
+  const double sine = std::sin(swing_rad);
+  // The fence looks into the ground.
+  const Eigen::Vector2d up(-last.normal.x() * cosine - last.normal.y() * sine, -last.normal.z());
+  const double across = last.normal.x() * sine - last.normal.y() * cosine;
+  const double corner_m = 0.5 * profile.geometry.body.bucket_width_m * std::abs(across);
+  const double length = up.norm();
+  line.up = up / length;
+  line.from_foot_m = (corner_m - last.offset_m) / length + profile.assist.offset_m +
+                     line.up.dot(shown_off_m - profile.geometry.boom_foot_m);
+  return line;
+}
+
 HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
                       const ExcavatorKinematics& kinematics, const KinematicState& now,
                       const ExcavatorServo& servo, const HandAsk& ask, const HandState& state,
                       double period_s) {
-  const HandRange range = hand_range(profile, ask.task);
   HandWant want;
-  want.speed =
-      softened(range, ask.task, target_of(range, ask, state.released), state.speed, period_s);
-  hold_outside(range, ask, want.speed);
+  want.assist = assist_of(profile.assist, ask, now, state);
+  const bool assists = want.assist == AssistState::kHolds;
+  want.leads = assists || ask.task == Task::kCoordinated;
+  HandRange range = hand_range(profile, want.leads, assists);
+  // Teeth that begin or end to be led do so from rest: boom up counts at once.
+  const HandSpeed last = state.leads == want.leads ? state.speed : HandSpeed(HandSpeed::Zero());
+  const HandSpeed target =
+      assists ? along_design(range, ask, now, state.plans ? state.tip : now.tip, state.released)
+              : target_of(range, want.leads, ask, state.released);
+  if (assists) {
+    range.change_ps[kUp] = target.head<2>().isZero(0.0)
+                               ? kAssistStops_mps2
+                               : range.change_ps[kUp] + kAssistGrows_ps * last.head<2>().norm();
+  }
+  want.speed = softened(range, want.leads, target, last, period_s);
+  hold_outside(range, want.leads, ask, want.speed);
   if (!profile.has_swing()) {
     want.speed = with_swing(want.speed, 0.0);
   }
-  if (ask.task == Task::kJog) {
+  if (want.leads) {
+    lead_teeth(drives, kinematics, now, servo, ask.design, state, want);
+  } else {
     slow_each(drives, strokes_then_m(drives, servo), want);
     want.moves = !want.wanted_mps.isZero(0.0);
-  } else {
-    lead_teeth(drives, kinematics, now, servo, state, want);
   }
   return want;
 }
@@ -198,19 +279,24 @@ HandState next_by_hand(const LineProfile& line, const HandWant& want, const Hand
   next.released =
       last.released || std::all_of(ask.lever_ratio.begin(), ask.lever_ratio.end(), rests);
   next.speed = want.speed;
-  if (ask.task != Task::kCoordinated || !want.moves) {
+  next.leads = want.leads;
+  next.assist = want.assist;
+  if (!want.leads || !want.moves) {
     return next;
   }
+  const bool assists = want.assist == AssistState::kHolds;
   next.plans = true;
   next.is_new = !last.plans;
   const double by_s = last.pace_ratio * want.cap.factor * followed_ratio * period_s;
   next.tip = moved(want.tip, want.speed, by_s);
   next.planned_m = want.planned_m + followed_ratio * period_s * want.wanted_mps;
-  const double slow_m = line.slow_error_m + line.slow_error_s * want.speed.head<2>().norm();
+  const double slow_m =
+      assists ? kAssistSlow_m : line.slow_error_m + line.slow_error_s * want.speed.head<2>().norm();
   const double off = want.error_m / slow_m;
-  const double change = line.pace_rate_ps * period_s;
+  const double rise = (assists ? kAssistPace_ps : line.pace_rate_ps) * period_s;
+  const double fall = assists ? 1.0 : rise;
   next.pace_ratio =
-      std::clamp(1.0 / (1.0 + off * off), last.pace_ratio - change, last.pace_ratio + change);
+      std::clamp(1.0 / (1.0 + off * off), last.pace_ratio - fall, last.pace_ratio + rise);
   return next;
 }
 

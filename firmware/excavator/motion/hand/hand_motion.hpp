@@ -1,29 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Motion by the operator's levers: each drive by its own (Task::kJog), or the teeth in the plane
-/// of the boom, with their attitude and the swing (Task::kCoordinated). Travels and velocities of
-/// the swing are those at its lever (SwingProfile).
+/// of the boom, with their attitude and the swing (Task::kCoordinated), or each drive until the arm
+/// is to draw the edge along the design (Task::kAssist). Travels and velocities of the swing are
+/// those at its lever (SwingProfile).
 
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
+#include "firmware/excavator/fences/fence.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
 #include "firmware/excavator/motion/hand/tuning.hpp"
 
 namespace graben {
 
-/// What the levers ask for, softly started and stopped. Jog: speeds of the drives, m/s.
-/// Coordinated: of the teeth up and forward, m/s, of the attitude, rad/s, of the swing, m/s.
+/// What the levers ask for, softly started and stopped: speeds of the drives, m/s, or, where the
+/// teeth are led, theirs up and forward, m/s, of the attitude, rad/s, of the swing, m/s.
 using HandSpeed = DriveVector;
+
+/// The design under the bucket in the plane of the boom: x outwards, y up, from the boom foot's
+/// pin. With the edge's middle on that line none of its corners is under the design.
+struct AssistLine {
+  bool known = false;                             ///< There is a design.
+  Eigen::Vector2d up = Eigen::Vector2d::UnitY();  ///< Of length 1, out of the ground.
+  double from_foot_m = 0.0;                       ///< Of the pin to the line, along `up`.
+
+  [[nodiscard]] double height_m(const TipPose& tip) const {
+    return up.x() * tip.x_m + up.y() * tip.y_m - from_foot_m;
+  }
+  /// Outwards, along the surface.
+  [[nodiscard]] Eigen::Vector2d along() const { return {up.y(), -up.x()}; }
+};
+
+/// The design is the last of a program's fences. `shown_off_m`: the edge is shown so much too far
+/// outwards and up. The line lies assist.offset over the design.
+[[nodiscard]] AssistLine assist_line(const ExcavatorProfile& profile, const FenceSet& fences,
+                                     double swing_rad, const Eigen::Vector2d& shown_off_m);
 
 /// State from cycle to cycle.
 struct HandState {
   bool released = false;  ///< The levers have been at rest since the task began.
-  bool plans = false;     ///< Coordinated: there is a place to be held to, as below.
+  bool leads = false;     ///< The teeth: Coordinated, and Assist while it holds.
+  bool plans = false;     ///< So led, there is a place to be held to, as below.
   bool is_new = false;    ///< It is that of the teeth when they began to move.
   HandSpeed speed = HandSpeed::Zero();
   TipPose tip;  ///< Where the teeth should be once all that was asked for has arrived.
   DriveVector planned_m = DriveVector::Zero();  ///< The same of the drives.
   double pace_ratio = 1.0;                      ///< See TaskState.
+  AssistState assist = AssistState::kNone;
 };
 
 /// What it is reckoned from.
@@ -32,6 +55,7 @@ struct HandAsk {
   std::array<double, kDriveCount> lever_ratio{};
   double speed_override_ratio = 0.0;
   double most_ratio = 1.0;  ///< That somebody outside leaves; it counts at once.
+  AssistLine design{};      ///< Of Assist.
 };
 
 /// Wanted motion of the drives now.
@@ -40,10 +64,12 @@ struct HandWant {
   TipPose tip;
   DriveVector planned_m = DriveVector::Zero();
   DriveVector wanted_mps = DriveVector::Zero();  ///< V_L^d.
+  bool leads = false;                            ///< See HandState.
   bool moves = false;                            ///< Something is asked for, or was until now.
-  double error_m = 0.0;  ///< Coordinated: of the teeth from where they should be by now.
-  /// By what that is already slowed; of Jog only the limit, of one drive.
+  double error_m = 0.0;  ///< Of teeth that are led from where they should be by now.
+  /// By what that is already slowed; of drives that are not led only the limit, of one of them.
   VelocityCap cap;
+  AssistState assist = AssistState::kNone;
 };
 
 /// Full lever is the fastest speed that the pump gives a drive, in Coordinated the speed of the
@@ -52,6 +78,11 @@ struct HandWant {
 /// Jog: each drive slows before its own end, and no other with it. Coordinated: all slow before an
 /// end, kLineEnds_m from it, for there cylinders are cushioned and a line would bend; where no pose
 /// is to be had further on, all stand. Other ways are free. `servo` has this cycle's strokes.
+///
+/// Assist: within assist.window of the design the arm's lever draws the edge along it as fast as
+/// that lever alone would move the arm, the attitude as it was, or turned by the bucket's lever;
+/// the boom's downwards does nothing. Upwards it ends that at once, as the swing's does, until the
+/// arm's has come to rest. Elsewhere, and without the arm's lever, each drive goes by its own.
 [[nodiscard]] HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
                                     const ExcavatorKinematics& kinematics,
                                     const KinematicState& now, const ExcavatorServo& servo,

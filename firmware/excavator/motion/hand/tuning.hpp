@@ -15,4 +15,32 @@ inline constexpr double kHandAhead_s = 0.05;
 /// tried]
 inline constexpr double kLineEnds_m = 0.05;
 
+/// Fastest that Assist draws the edge along a design. [m/s; measured: `campaign assist`: at 0.8 a
+/// third of the lever is capped, and the largest error falls by 2 mm of 30]
+inline constexpr double kAssistFastest_mps = 1.5;
+/// Factor on assist.window where the edge is in it already. [-; chosen: not tried]
+inline constexpr double kAssistKeeps = 1.2;
+/// Way along the design on which the distance to it falls to a third. [m; measured: `campaign
+/// assist`: at 0.5 the largest error rises by 3 mm of 30]
+inline constexpr double kAssistOnto_m = 0.2;
+/// Steepest way onto it. [-; chosen: not tried]
+inline constexpr double kAssistSteepest = 0.5;
+/// Rate at which its acceleration grows with its speed, from that of a line. [1/s; measured:
+/// `campaign assist`: at once 1 m/s2, a boom that moves before the arm does lifts the edge by 57 mm
+/// instead of 37; at 3, by 50]
+inline constexpr double kAssistGrows_ps = 1.5;
+/// Deceleration of the edge once the arm's lever rests. [m/s2; measured: `campaign assist`: at 8
+/// the stopped links ring longer than at 4 it takes to stop]
+inline constexpr double kAssistStops_mps2 = 4.0;
+/// Distance off its line at which it goes half as fast. [m; measured: `campaign assist`: at 0.008
+/// the way takes 1.9 times as long as the flow allows, at 0.025 the largest error is 6 mm of 30
+/// more]
+inline constexpr double kAssistSlow_m = 0.015;
+/// Rate at which it speeds up again after that; it slows at once. [1/s; chosen: not tried]
+inline constexpr double kAssistPace_ps = 3.0;
+/// Distance under the design at which its fence stands while Assist holds the edge on it. [m;
+/// measured: `campaign assist`: at 0.03 it held corrections back, and the boom swung by 0.1 m
+/// at 2.4 Hz; at 1 the deepest cut was 97 mm instead of 55]
+inline constexpr double kAssistFence_m = 0.3;
+
 }  // namespace graben

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// An operator with task Assist on the simulated machine: the arm's lever draws the bucket's edge
+/// along a design, in to the machine and out again.
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "app/machines/simulated/simulated_excavator.hpp"
+#include "app/runs/campaign_run.hpp"
+#include "app/runs/figures.hpp"
+#include "firmware/core/codes.hpp"
+
+namespace graben::runs {
+
+/// What the hands do; the arm's lever is meant where nothing else is said.
+enum class LeverRecord : std::size_t {
+  kFull,      ///< Wholly on, in a step.
+  kThird,     ///< A third of that.
+  kRamps,     ///< From rest to full and back within 3 s.
+  kReleases,  ///< Two thirds for 1.2 s, then let go for 1 s.
+  kNoise,     ///< About 0.6, with a hand's noise below 3 Hz.
+  kTwo,       ///< Two thirds; the boom's downwards at times, the bucket's to both sides at others.
+};
+inline constexpr std::array<const char*, 6> kLeverRecords = {"full",     "third", "ramps",
+                                                             "releases", "noise", "two levers"};
+enum class AssistDesign : std::size_t { kFlat, kSlope };
+inline constexpr std::array<const char*, 2> kAssistDesigns = {"flat", "slope 1:2"};
+
+struct AssistOptions {
+  LeverRecord record = LeverRecord::kFull;
+  AssistDesign design = AssistDesign::kFlat;
+  bool marked = true;  ///< The edge was touched to a mark at the start.
+  std::uint64_t seed = 1;
+};
+
+/// True edge against the design, from the first 0.3 m of way on. Not a number: nothing of it was
+/// seen.
+struct AssistSummary {
+  double rmse_m = kAbsent;
+  double most_off_m = kAbsent;
+  double over_cut_m = kAbsent;  ///< 0: none.
+  double wave_rms_m = kAbsent;  ///< Of what changes faster than 0.5 Hz.
+  /// Over the fastest that the arm's lever, the drives' and the pumps' flow allow, on the way in
+  /// and out; of records in which the lever stands still.
+  double time_ratio = kAbsent;
+  double stop_s = kAbsent;      ///< From letting go until the edge stands, longest.
+  double stop_off_m = kAbsent;  ///< Off the design from letting go on, farthest.
+  double unsaid_s = 0.0;        ///< It stood with the lever on and no limit was told.
+  double fault = 0.0;           ///< Code of that which stopped it; 0: none.
+};
+
+/// In the order of the ends of the campaign's rows.
+enum class AssistEnd { kDone = 0, kNotFinished = 1, kFault = 2 };
+
+struct AssistResult {
+  AssistEnd end = AssistEnd::kDone;
+  AssistSummary summary;
+};
+
+[[nodiscard]] const FigureTable<AssistSummary>& assist_figures();
+
+/// Throws std::runtime_error where the machine can't hold its bucket all along the design.
+[[nodiscard]] AssistResult run_assist(const machines::SimulatedExcavator& machine,
+                                      const AssistOptions& options);
+
+[[nodiscard]] const CampaignKind& assist_kind();
+
+/// Every record on every design, then the next draw of each.
+[[nodiscard]] CampaignOutcome campaign_assist(const CampaignOptions& options,
+                                              const machines::SimulatedExcavator& nominal,
+                                              const std::string& errors, bool marked,
+                                              const Progress& progress);
+/// Records times designs.
+[[nodiscard]] std::uint64_t assist_cells();
+
+}  // namespace graben::runs
