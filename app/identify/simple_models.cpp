@@ -256,6 +256,9 @@ double CurveFit::edge(double side) const {
   while (n > 1 && std::abs(speed[at(n - 1)]) > wanted) {
     --n;
   }
+  if (n > 1 && driven[at(n - 1)] == 0) {
+    return 0.0;
+  }
   const double above = std::abs(speed[at(n)]);
   const double below = n > 1 ? std::min(std::abs(speed[at(n - 1)]), wanted) : 0.0;
   const double part = above > below ? (wanted - below) / (above - below) : 0.0;

@@ -42,7 +42,8 @@ struct CurveFit {
   /// From a step of the command to 50 and 90 % of the speed, s.
   [[nodiscard]] double half_s() const;
   [[nodiscard]] double most_s() const;
-  /// Command at which `side` (+1, -1) reaches 5 % of its fastest speed; 0: it was not driven.
+  /// Command at which `side` (+1, -1) reaches 5 % of its fastest speed; 0: it was not driven, or
+  /// not with smaller commands.
   [[nodiscard]] double edge(double side) const;
   [[nodiscard]] double fastest(double side) const;
 };

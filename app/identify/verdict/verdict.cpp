@@ -216,7 +216,9 @@ void take_draft(const DriveTrack& track, const DriveVerdict& of, std::vector<Dra
     draft.push_back({key + ".lag", fmt::format("{:.3f} s", of.curve.lag_s),
                      fmt::format("+- {:.3f} s", kBand * of.curve.lag_deviation_s)});
     draft.push_back({key + ".spool_to_duty",
-                     fmt::format("from {:.0f} per mille", 1e3 * of.curve.edge(side)),
+                     of.curve.edge(side) == 0.0
+                         ? std::string("edge not known")
+                         : fmt::format("from {:.0f} per mille", 1e3 * of.curve.edge(side)),
                      fmt::format("driven to {:.0f} per mille; there {:.3g} {}/s{}",
                                  1e3 * driven(track.figures, side),
                                  std::abs(of.curve.fastest(side)), track.unit(), sign)});

@@ -32,8 +32,8 @@ std::string table(const Verdict& verdict) {
       continue;
     }
     const auto edge = [&](double side) {
-      return of.curve.fastest(side) == 0.0 ? std::string("-")
-                                           : fmt::format("{:.0f}", 1e3 * of.curve.edge(side));
+      return of.curve.edge(side) == 0.0 ? std::string("-")
+                                        : fmt::format("{:.0f}", 1e3 * of.curve.edge(side));
     };
     text += fmt::format(
         "{:<12} {:>9.3f}  {:>5.3f}   {:<15} {:>4.0f} ms  {:>4.0f}, {:<4.0f}  {:>4}, {:<4} "
@@ -58,7 +58,8 @@ nlohmann::ordered_json side_json(const CurveFit& fit, double side) {
   const bool known = fit.fastest(side) != 0.0;
   json["driven"] = known;
   if (known) {
-    json["edge_ratio"] = fit.edge(side);
+    json["edge_ratio"] = fit.edge(side) == 0.0 ? nlohmann::ordered_json(nullptr)
+                                               : nlohmann::ordered_json(fit.edge(side));
     json["fastest"] = fit.fastest(side);
   }
   return json;
@@ -127,7 +128,8 @@ std::string verdict_text(const Verdict& verdict) {
     columns.insert(columns.end(), sources.begin(), sources.end());
   }
   text += listed("columns", columns);
-  text += fitted ? table(verdict) : std::string("no drive has command and motion: no fit\n");
+  text += fitted ? table(verdict)
+                 : std::string("no fit: no drive has a command and a speed that changes\n");
   text += listed("known", known);
   text += listed("next", next);
   std::vector<std::string> missing;

@@ -41,8 +41,8 @@ std::string drives(const Verdict& verdict) {
       continue;
     }
     const auto edge = [&](double side) {
-      return of.curve.fastest(side) == 0.0 ? std::string("-")
-                                           : fmt::format("{:.0f}", 1e3 * of.curve.edge(side));
+      return of.curve.edge(side) == 0.0 ? std::string("-")
+                                        : fmt::format("{:.0f}", 1e3 * of.curve.edge(side));
     };
     html +=
         cell(fmt::format("{:.3f}", of.curve.judged_r2)) +
