@@ -53,6 +53,11 @@ inline constexpr CommandRow kCommands[] = {
      "How a machine answers its commands, found from recorded motion: dead time, lags, curves of "
      "each direction, pumps, zeros of sensors; judged by motion that was left out. From logs "
      "into a better profile, or of foreign recordings into figures"},
+    {"verdict", "identify",
+     "What a log of any machine is good for: what is in it, how each drive answers its command and "
+     "how well that is known, what a profile of the machine still lacks, what to drive next, and "
+     "the tip error to be expected. Columns and units are guessed and said. A log with nothing in "
+     "it ends with status 1"},
     {"measure-up", "identify",
      "How the IMUs sit on their links, from a log in which the bucket's edge stood on one fixed "
      "point in several postures, each for 10 s; into the profile's [imu]. --record makes such a "

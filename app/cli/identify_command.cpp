@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/cli/command_table.hpp"
@@ -28,8 +30,12 @@ void identify_motion(const IdentifyCommand& options) {
   std::vector<std::string> inputs = options.csv;
   inputs.insert(inputs.end(), options.judge.begin(), options.judge.end());
   assert_apart(inputs, {options.log.summary});
-  const identify::MotionSplit split = identify::split_motion(
-      identify::read_motion_files(options.csv), identify::read_motion_files(options.judge));
+  std::vector<std::string> notes;
+  std::vector<identify::MotionRun> train =
+      identify::cut_and_thinned(identify::read_motion_files(options.csv, &notes), &notes);
+  std::vector<identify::MotionRun> judge = identify::read_motion_files(options.judge, &notes);
+  const identify::MotionSplit split =
+      identify::split_motion(std::move(train), identify::cut_and_thinned(std::move(judge)));
   assert_writable(options.log.summary);
   identify::MotionResult result;
   {
@@ -38,8 +44,15 @@ void identify_motion(const IdentifyCommand& options) {
     fit.progress = bar.progress();
     result = identify::identify_motion(split, fit);
   }
+  result.notes = notes;
   write_whole(options.log.summary, identify::motion_json(result));
   fmt::print("{}", identify::motion_text(result));
+  if (result.useless()) {
+    throw std::runtime_error(
+        fmt::format("no axis follows its command (R2 below {:.1f}): the figures say nothing; are "
+                    "these the commands of this machine?",
+                    identify::kUselessR2));
+  }
 }
 
 void need(bool given, const char* name) {
@@ -74,7 +87,8 @@ void add_csv_options(CLI::App& command, IdentifyCommand& options) {
   CLI::Option* csv = command.add_option(
       "--csv", options.csv,
       "Recorded motion, CSV, plain or gzip: columns run, time_s and for boom, arm, bucket and "
-      "swing command_permille_AXIS, angle_rad_AXIS, velocity_radps_AXIS; needs --summary");
+      "swing command_permille_AXIS, angle_rad_AXIS and, where a sensor measured it, "
+      "velocity_radps_AXIS; needs --summary");
   command
       .add_option("--judge", options.judge,
                   "The same, of runs to judge by; unless told, every fifth run of --csv is left "

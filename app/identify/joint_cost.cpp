@@ -55,7 +55,8 @@ void JointCost::residuals(const T* p, const Put& put) const {
   const std::vector<double>& angle = of_.run->angle_rad[joint_];
   const std::vector<JointState<T>> states = motion(of_, joint_, p, grid_);
   for (std::size_t row = 0; row < states.size(); ++row) {
-    put(row, pressed(T((sign_ * states[row].seen_radps - velocity[row]) / scale_radps_)));
+    const T seen = as_measured(*of_.run, joint_, row, states);
+    put(row, pressed(T((sign_ * seen - velocity[row]) / scale_radps_)));
   }
   for (std::size_t at = 0; at < aheads_.size(); ++at) {
     const auto [from, to] = aheads_[at];

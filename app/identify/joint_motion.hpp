@@ -54,13 +54,15 @@ void move(JointState<T>& state, const T* p, double row_s, const T& wanted_radps,
     const T flow = before + (state.flow_radps - before) * ((step + 0.5) / kSteps);
     const T& damping = p[state.pushed_radps2 * flow > 0.0 ? kDampingDriving : kDampingBraking];
     const T slower_radps = state.velocity_radps;
+    const T was_radps = state.velocity_radps + state.rocks_radps;
     oscillate(state.velocity_radps, state.pushed_radps2, step_s, stiffness, damping, flow, T(0.0));
     const T shoved =
         shoved_radps / double(kSteps) + p[kRockOwn] * (state.velocity_radps - slower_radps);
     oscillate(state.tilt_rad, state.rocks_radps, step_s, rock_stiffness, rock_damping, T(0.0),
               shoved);
     const T true_radps = state.velocity_radps + state.rocks_radps;
-    state.turned_rad += step_s * true_radps;
+    // The mean of both ends: with the later one alone an angle would lead by half a step.
+    state.turned_rad += 0.5 * step_s * (was_radps + true_radps);
     state.seen_radps += (true_radps - state.seen_radps) * (step_s / (step_s + p[kSensorLag]));
   }
 }
@@ -74,6 +76,20 @@ T shove(const JointRun& of, std::size_t row, const T* p) {
     shoved += p[kRockForce + at] * (other[row] - other[row - 1]);
   }
   return shoved;
+}
+
+/// What the run's velocity of a row would be: its sensor's, or the mean rate of the angle since an
+/// earlier row.
+template <class T>
+T as_measured(const MotionRun& run, std::size_t joint, std::size_t row,
+              const std::vector<JointState<T>>& states) {
+  if (!run.by_angle[joint]) {
+    return states[row].seen_radps;
+  }
+  const std::size_t since = run.since[row];
+  return since == row ? states[row].velocity_radps
+                      : T((states[row].turned_rad - states[since].turned_rad) /
+                          (run.time_s[row] - run.time_s[since]));
 }
 
 /// A joint throughout a run, from the commands and the measured angles: one state per row.

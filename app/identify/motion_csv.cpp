@@ -11,6 +11,7 @@
 
 #include "app/identify/lines.hpp"
 #include "app/identify/motion_runs.hpp"
+#include "app/identify/motion_units.hpp"
 #include "app/machines/plain_text.hpp"
 
 namespace graben::identify {
@@ -55,6 +56,8 @@ class Columns {
     return found->second;
   }
 
+  [[nodiscard]] bool has(const std::string& name) const { return at_.count(name) > 0; }
+
   [[nodiscard]] std::size_t size() const { return at_.size(); }
 
  private:
@@ -62,42 +65,54 @@ class Columns {
   std::map<std::string, std::size_t, std::less<>> at_;
 };
 
-/// A value of a row between `least` and `most`.
-double bounded(const std::vector<std::string_view>& row, const Columns& columns,
-               const std::string& name, double least, double most, const std::string& where) {
-  const double value = number(row[columns[name]], where, name);
-  if (value < least || value > most) {
-    refuse(where, fmt::format("{} is {}; {} .. {} is possible", name, value, least, most));
+void add_row(const std::vector<std::string_view>& row, const Columns& columns,
+             const std::string& where, std::size_t line, RawRun& raw) {
+  MotionRun& run = raw.run;
+  const auto value = [&](const std::string& name) {
+    return number(row[columns[name]], where, name);
+  };
+  raw.line.push_back(line);
+  run.time_s.push_back(value("time_s"));
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    const std::string name = kJointNames[joint];
+    run.command[joint].push_back(value("command_permille_" + name));
+    run.angle_rad[joint].push_back(value("angle_rad_" + name));
+    const std::string velocity = "velocity_radps_" + name;
+    run.velocity_radps[joint].push_back(columns.has(velocity) ? value(velocity) : 0.0);
   }
-  return value;
 }
 
-void add_row(const std::vector<std::string_view>& row, const Columns& columns,
-             const std::string& where, MotionRun& run) {
-  const double time_s = number(row[columns["time_s"]], where, "time_s");
-  if (!run.time_s.empty()) {
-    const double step_s = time_s - run.time_s.back();
+/// Once units are known: times that go on, values between `least` and `most`.
+void check_row(const RawRun& raw, std::size_t row, const std::string& path) {
+  const MotionRun& run = raw.run;
+  const std::string where = fmt::format("{}:{}", path, raw.line[row]);
+  if (row > 0) {
+    const double step_s = run.time_s[row] - run.time_s[row - 1];
     if (step_s <= 0.0 || step_s > kLongestStep_s) {
       refuse(where, fmt::format("time_s goes on by {:.3f} s within a run; up to {} s is possible",
                                 step_s, kLongestStep_s));
     }
   }
-  run.time_s.push_back(time_s);
+  const auto check = [&](const std::string& name, double value, double most) {
+    if (!(std::abs(value) <= most)) {
+      refuse(where, fmt::format("{} is {}; {} .. {} is possible", name, value, -most, most));
+    }
+  };
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     const std::string name = kJointNames[joint];
-    run.command[joint].push_back(
-        bounded(row, columns, "command_permille_" + name, -1000.0, 1000.0, where) / 1000.0);
-    run.angle_rad[joint].push_back(
-        bounded(row, columns, "angle_rad_" + name, -kLargestAngle_rad, kLargestAngle_rad, where));
-    run.velocity_radps[joint].push_back(bounded(row, columns, "velocity_radps_" + name,
-                                                -kLargestVelocity_radps, kLargestVelocity_radps,
-                                                where));
+    check("command_permille_" + name, run.command[joint][row], 1000.0);
+    check("angle_rad_" + name, run.angle_rad[joint][row], kLargestAngle_rad);
+    check("velocity_radps_" + name, run.velocity_radps[joint][row], kLargestVelocity_radps);
   }
 }
 
 /// Angle and velocity of one joint must be of one motion and in one unit.
-void check_agreement(const std::vector<MotionRun>& runs, const std::string& path) {
+void check_agreement(const std::vector<MotionRun>& runs, const HasVelocity& has_velocity,
+                     const std::string& path) {
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    if (!has_velocity[joint]) {
+      continue;
+    }
     double unexplained = 0.0;
     double motion = 0.0;
     for (const MotionRun& run : runs) {
@@ -125,16 +140,37 @@ void check_agreement(const std::vector<MotionRun>& runs, const std::string& path
   }
 }
 
-}  // namespace
+/// Velocities that are missing, or only the angles' differences, as the angles have them.
+void take_velocities(std::vector<MotionRun>& runs, const HasVelocity& has_velocity,
+                     const std::string& path, std::vector<std::string>& notes) {
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    const bool differenced = has_velocity[joint] && is_differenced(runs, joint);
+    if (has_velocity[joint] && !differenced) {
+      continue;
+    }
+    for (MotionRun& run : runs) {
+      take_velocity_of_angle(run, joint);
+    }
+    if (differenced) {
+      notes.push_back(
+          fmt::format("{}: velocity_radps_{} is a difference of the angles: these are "
+                      "fitted to, filtered as the model is",
+                      path, kJointNames[joint]));
+    }
+  }
+}
 
-std::vector<MotionRun> read_motion_csv(const std::string& path) {
+std::vector<RawRun> read_raw(const std::string& path, HasVelocity& has_velocity) {
   Lines lines(path, "recorded motion, a CSV as graben identify --help describes it");
   std::string line;
   if (!lines.next(line)) {
     refuse(path, "is empty");
   }
   const Columns columns(line, lines.where());
-  std::vector<MotionRun> runs;
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    has_velocity[joint] = columns.has(fmt::format("velocity_radps_{}", kJointNames[joint]));
+  }
+  std::vector<RawRun> runs;
   std::string of_run;
   std::vector<std::string> seen;
   while (lines.next(line)) {
@@ -155,28 +191,54 @@ std::vector<MotionRun> read_motion_csv(const std::string& path) {
       seen.push_back(run);
       of_run = run;
       runs.emplace_back();
-      runs.back().name = fmt::format("{}, run {}", path, run);
+      runs.back().run.name = fmt::format("{}, run {}", path, run);
     }
-    add_row(row, columns, lines.where(), runs.back());
+    add_row(row, columns, lines.where(), lines.number(), runs.back());
   }
   if (runs.empty()) {
     refuse(path, "has a header and no rows");
   }
-  for (const MotionRun& run : runs) {
+  return runs;
+}
+
+}  // namespace
+
+std::vector<MotionRun> read_motion_csv(const std::string& path, std::vector<std::string>* notes) {
+  HasVelocity has_velocity{};
+  std::vector<RawRun> raw = read_raw(path, has_velocity);
+  std::vector<std::string> said;
+  take_units(raw, has_velocity, path, said);
+  std::vector<MotionRun> runs;
+  for (RawRun& each : raw) {
+    for (std::size_t row = 0; row < each.run.size(); ++row) {
+      check_row(each, row, path);
+    }
+    MotionRun& run = each.run;
     const double lasts_s = run.time_s.back() - run.time_s.front();
     if (lasts_s < kShortestRun_s) {
       refuse(run.name,
              fmt::format("lasts {:.2f} s; at least {} s is needed", lasts_s, kShortestRun_s));
     }
+    for (std::vector<double>& commands : run.command) {
+      for (double& command : commands) {
+        command /= 1000.0;
+      }
+    }
+    runs.push_back(std::move(run));
   }
-  check_agreement(runs, path);
+  check_agreement(runs, has_velocity, path);
+  take_velocities(runs, has_velocity, path, said);
+  if (notes != nullptr) {
+    std::move(said.begin(), said.end(), std::back_inserter(*notes));
+  }
   return runs;
 }
 
-std::vector<MotionRun> read_motion_files(const std::vector<std::string>& paths) {
+std::vector<MotionRun> read_motion_files(const std::vector<std::string>& paths,
+                                         std::vector<std::string>* notes) {
   std::vector<MotionRun> all;
   for (const std::string& path : paths) {
-    std::vector<MotionRun> runs = read_motion_csv(path);
+    std::vector<MotionRun> runs = read_motion_csv(path, notes);
     std::move(runs.begin(), runs.end(), std::back_inserter(all));
   }
   return all;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "app/identify/joint_cost.hpp"
 #include "app/identify/motion_start.hpp"
@@ -18,12 +19,15 @@
 namespace graben::identify {
 namespace {
 
-constexpr std::array<double, 4> kDeadTimeStarts_s = {0.04, 0.10, 0.15, 0.21};
-constexpr double kAlike_s = 0.03;  // Starts closer than that end alike.
-constexpr int kSearchSteps = 20;
-constexpr std::size_t kSearched = 14;  // So many runs are enough to choose a start,
-constexpr std::size_t kSome = 42;      // and so many for all passes but the last.
+constexpr std::array<double, 3> kDeadTimeStarts_s = {0.05, 0.12, 0.19};
+constexpr double kAlike_s = 0.03;            // Starts closer than that end alike.
+constexpr int kTrySteps = 12;                // Show which start is none,
+constexpr int kSearchSteps = 12;             // and so many more which of the best two is better.
+constexpr std::size_t kSearchedRows = 4000;  // Are enough to choose a start by,
+constexpr std::size_t kSomeRows = 8000;      // and so many for all passes but the last.
 constexpr int kSteps = 15;
+constexpr double kOfRow = 0.12;    // Deviation of a dead time, of 20 simulated machines.
+constexpr double kSettled = 1e-4;  // Of the cost, in one step.
 
 /// Once a dead time is found: near it. Lags and the rocking stand in for dead time, and slowly so.
 Range near(double dead_time_s) {
@@ -61,6 +65,7 @@ class JointFit {
     options.num_threads = threads;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.logging_type = ceres::SILENT;
+    options.function_tolerance = kSettled;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
     return summary.final_cost;
@@ -102,6 +107,11 @@ class JointFit {
       model_.deviation[static_cast<std::size_t>(at)] +=
           std::sqrt(std::max(0.0, covariance(at, at)));
     }
+    // A model that goes by rows can't know a dead time better than a part of one.
+    const MotionRun& run = *inputs.front().run;
+    const double row_s =
+        (run.time_s.back() - run.time_s.front()) / static_cast<double>(run.size() - 1);
+    model_.deviation[kDeadTime] = std::hypot(model_.deviation[kDeadTime], kOfRow * row_s);
   }
 
  private:
@@ -124,10 +134,17 @@ std::vector<JointRun> inputs_of(const MotionModel& model, std::size_t joint,
   return inputs;
 }
 
-/// About `count` of all, evenly.
+std::size_t rows_of(const MotionRun& run) { return run.size(); }
+std::size_t rows_of(const JointRun& of) { return of.run->size(); }
+
+/// Of all, evenly, with about so many rows.
 template <class T>
-std::vector<T> some(const std::vector<T>& all, std::size_t count) {
-  const std::size_t every = std::max<std::size_t>(1, all.size() / count);
+std::vector<T> some(const std::vector<T>& all, std::size_t rows) {
+  std::size_t has = 0;
+  for (const T& one : all) {
+    has += rows_of(one);
+  }
+  const std::size_t every = std::max<std::size_t>(1, has / rows);
   std::vector<T> chosen;
   for (std::size_t at = 0; at < all.size(); at += every) {
     chosen.push_back(all[at]);
@@ -146,29 +163,32 @@ JointModel other_start(const JointModel& model, double dead_time_s, double scale
   return other;
 }
 
-/// The best of several dead times to start from. Each row's length there is a best one of its own,
-/// and which of them is the best of all may change once the others' motion is known: then `model`
-/// as it is counts too.
+/// The best of several dead times to start from: each row's length there is a best one of its own.
 void search(const std::vector<JointRun>& all, std::size_t joint, JointModel& model,
-            double scale_radps, bool first, int threads) {
+            double scale_radps, int threads) {
   std::vector<JointModel> starts;
-  if (!first) {
-    starts.push_back(model);
-  }
   for (const double dead_time_s : kDeadTimeStarts_s) {
-    if (first || std::abs(dead_time_s - model.value[kDeadTime]) > kAlike_s) {
-      starts.push_back(other_start(model, dead_time_s, scale_radps));
-    }
+    starts.push_back(other_start(model, dead_time_s, scale_radps));
   }
-  const std::vector<JointRun> inputs = some(all, kSearched);
+  const std::vector<JointRun> inputs = some(all, kSearchedRows);
+  std::vector<std::pair<double, JointModel>> tried;
+  const auto solve = [&](JointModel& start, int steps) {
+    return JointFit(inputs, joint, start, scale_radps, range(kDeadTime, 0.0)).solve(steps, threads);
+  };
+  for (JointModel& start : starts) {
+    const double cost = solve(start, kTrySteps);
+    tried.emplace_back(cost, start);
+  }
+  std::sort(tried.begin(), tried.end(),
+            [](const auto& one, const auto& other) { return one.first < other.first; });
+  constexpr std::size_t kBest = 2;
+  tried.resize(std::min(kBest, tried.size()));
   double least = std::numeric_limits<double>::infinity();
-  for (JointModel& tried : starts) {
-    const Range dead_time = first ? range(kDeadTime, 0.0) : near(tried.value[kDeadTime]);
-    const double cost =
-        JointFit(inputs, joint, tried, scale_radps, dead_time).solve(kSearchSteps, threads);
+  for (auto& [before, start] : tried) {
+    const double cost = solve(start, kSearchSteps);
     if (cost < least) {
       least = cost;
-      model = tried;
+      model = start;
     }
   }
 }
@@ -189,7 +209,7 @@ MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& opt
         fmt::format("no joint moves: {} is the fastest rms velocity, rad/s",
                     *std::max_element(scale_radps.begin(), scale_radps.end())));
   }
-  const std::vector<MotionRun> fewer = some(runs, kSome);
+  const std::vector<MotionRun> fewer = some(runs, kSomeRows);
   const double work = options.passes * static_cast<double>(kJoints);
   for (int pass = 0; pass < options.passes; ++pass) {
     const bool last = pass + 1 == options.passes;
@@ -203,11 +223,9 @@ MotionModel fit_motion(const std::vector<MotionRun>& runs, const FitOptions& opt
         continue;
       }
       const std::vector<JointRun> inputs = inputs_of(model, joint, last ? runs : fewer, pass == 0);
-      if (pass <= 1) {
-        search(inputs, joint, of, scale_radps[joint], pass == 0, options.threads);
-        dead_time_s[joint] = of.value[kDeadTime];
-      }
       if (pass == 0) {
+        search(inputs, joint, of, scale_radps[joint], options.threads);
+        dead_time_s[joint] = of.value[kDeadTime];
         spread_bends(runs, joint, of);
       }
       JointFit fit(inputs, joint, of, scale_radps[joint],

@@ -189,6 +189,21 @@ Velocities predict(const MotionModel& model, const MotionRun& run) {
   return velocities;
 }
 
+Velocities predict_measured(const MotionModel& model, const MotionRun& run) {
+  const std::vector<States> states = Machine(model, run).run();
+  Velocities velocities;
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    std::vector<JointState<double>> of;
+    for (const States& all : states) {
+      of.push_back(all[joint]);
+    }
+    for (std::size_t row = 0; row < run.size(); ++row) {
+      velocities[joint].push_back(model[joint].sign * as_measured(run, joint, row, of));
+    }
+  }
+  return velocities;
+}
+
 Velocities turns_ahead(const MotionModel& model, const MotionRun& run) {
   const Machine machine(model, run);
   const std::vector<States> states = machine.run();
@@ -205,7 +220,7 @@ Velocities turns_ahead(const MotionModel& model, const MotionRun& run) {
 std::array<Score, kJoints> judge(const MotionModel& model, const std::vector<MotionRun>& runs) {
   std::array<Judge, kJoints> judges;
   for (const MotionRun& run : runs) {
-    const Velocities velocities = predict(model, run);
+    const Velocities velocities = predict_measured(model, run);
     const Velocities turns = turns_ahead(model, run);
     for (std::size_t joint = 0; joint < kJoints; ++joint) {
       judges[joint].add(run, joint, velocities[joint], turns[joint]);

@@ -16,8 +16,8 @@ struct JointModel {
   double sign = 1.0;
   Grid grid{};
   std::array<double, kParameters> value{};
-  /// Standard deviations; infinite where the data says nothing. Not
-  /// valid for a value at its bound.
+  /// Standard deviations; infinite where the data says nothing. Not valid for a value at its bound:
+  /// see at_bound().
   std::array<double, kParameters> deviation{};
 };
 
@@ -28,6 +28,9 @@ using Velocities = std::array<std::vector<double>, kJoints>;
 
 /// Velocities of a run from its commands and its measured pose.
 [[nodiscard]] Velocities predict(const MotionModel& model, const MotionRun& run);
+
+/// The same as the run's velocities are: of the angles where those are.
+[[nodiscard]] Velocities predict_measured(const MotionModel& model, const MotionRun& run);
 
 /// How far each joint turns within the second after each row, rad, from the commands and the pose
 /// at that row alone: shorter than the run by that second.

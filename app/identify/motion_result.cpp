@@ -9,6 +9,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/identify/motion_delay.hpp"
+#include "app/identify/motion_start.hpp"
+
 namespace graben::identify {
 namespace {
 
@@ -19,6 +22,7 @@ constexpr double kOpens = 0.05;  // Of its full speed: where a curve is said to 
 constexpr double kFar = 0.95;    // Of the command: beyond it nothing is missed.
 constexpr double kBand = 1.96;   // Standard deviations on each side of a 95 % band.
 constexpr double kPermille = 1e3;
+constexpr double kLeastR2 = 1e9;  // Of a model that there is none of.
 
 bool same_motion(const MotionRun& one, const MotionRun& other) {
   // Two that stand are alike, and neither says anything.
@@ -64,7 +68,25 @@ double edge(const JointModel& joint, std::size_t first) {
   return 1.0;
 }
 
-nlohmann::json curve_json(const JointModel& joint, std::size_t first) {
+constexpr double kDrivenAtAll = 0.02;
+
+/// How far a direction was driven.
+double driven(const MotionResult& result, std::size_t joint, bool forward) {
+  return forward ? result.driven[joint][1] : -result.driven[joint][0];
+}
+
+nlohmann::json number_or_null(double value) {
+  // JSON has no infinity; null is 'the data says nothing'.
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json curve_json(const MotionResult& result, std::size_t of, bool forward) {
+  const JointModel& joint = result.model[of];
+  const std::size_t first = forward ? kForward : kBackward;
+  const double most = driven(result, of, forward);
+  if (most < kDrivenAtAll) {
+    return nullptr;
+  }
   nlohmann::json points = nlohmann::json::array();
   double variance = 0.0;
   for (std::size_t at = 0; at < kKnots; ++at) {
@@ -72,14 +94,99 @@ nlohmann::json curve_json(const JointModel& joint, std::size_t first) {
       const double deviation = joint.deviation[first + at - 1];
       variance += deviation * deviation;
     }
-    const double deviation = std::sqrt(variance);
+    // A piece that begins beyond what was driven was not.
+    const bool there = at == 0 || bends(joint, first)[at - 1] < most;
     points.push_back({{"command_ratio", bends(joint, first)[at]},
                       {"velocity_radps", sum(joint, first, at)},
-                      // JSON has no infinity; null is 'the data says nothing'.
-                      {"deviation_radps", std::isfinite(deviation) ? nlohmann::json(deviation)
-                                                                   : nlohmann::json(nullptr)}});
+                      {"deviation_radps", there ? number_or_null(std::sqrt(variance)) : nullptr}});
   }
   return points;
+}
+
+/// Parameters by name, in their order: each a number, or as many as there are.
+struct Group {
+  const char* name;
+  std::size_t first;
+  std::size_t count;
+};
+constexpr std::array<Group, 17> kGroups = {Group{"dead_time_s", kDeadTime, 1},
+                                           Group{"pilot_lag_s", kPilotLag, 4},
+                                           Group{"rises_positive_radps", kForward, kRises},
+                                           Group{"rises_negative_radps", kBackward, kRises},
+                                           Group{"flow_lag_s", kFlowLag, 4},
+                                           Group{"mode_rate_radps", kModeRate, 1},
+                                           Group{"damping_driving_ps", kDampingDriving, 1},
+                                           Group{"damping_braking_ps", kDampingBraking, 1},
+                                           Group{"inertia_by_pose", kInertia, kCosines},
+                                           Group{"load_positive_by_pose", kLoadForward, kPose},
+                                           Group{"load_negative_by_pose", kLoadBackward, kPose},
+                                           Group{"linkage_ratio", kLinkageRatio, kLinkage - 1},
+                                           Group{"shared_with_others", kShare, 4 * kOthers},
+                                           Group{"rock_rate_radps", kRockRate, 1},
+                                           Group{"rock_damping", kRockDamping, 1},
+                                           Group{"rock_by_joints", kRockForce, kOthers + 1},
+                                           Group{"sensor_lag_s", kSensorLag, 1}};
+
+/// Every parameter; a deviation only where a value is free and the data says something of it.
+nlohmann::ordered_json fitted_json(const MotionResult& result, std::size_t joint) {
+  const JointModel& model = result.model[joint];
+  nlohmann::ordered_json json;
+  for (const Group& group : kGroups) {
+    nlohmann::json values = nlohmann::json::array();
+    nlohmann::json deviations = nlohmann::json::array();
+    nlohmann::json bounds = nlohmann::json::array();
+    for (std::size_t at = group.first; at < group.first + group.count; ++at) {
+      const bool bound = at_bound(model, at, result.usual_radps[joint]);
+      values.push_back(model.value[at]);
+      deviations.push_back(bound ? nlohmann::json(nullptr) : number_or_null(model.deviation[at]));
+      bounds.push_back(bound);
+    }
+    const bool one = group.count == 1;
+    json[group.name] = {{"value", one ? values[0] : values},
+                        {"deviation", one ? deviations[0] : deviations},
+                        {"at_bound", one ? bounds[0] : bounds}};
+  }
+  return json;
+}
+
+nlohmann::ordered_json delay_json(const MotionResult& result, std::size_t joint, bool forward) {
+  const double most = driven(result, joint, forward);
+  if (most < kDrivenAtAll) {
+    return nullptr;
+  }
+  const TotalDelay delay = total_delay(result.model[joint], forward ? most : -most);
+  return {{"to_50_s", number_or_null(delay.half_s)}, {"to_90_s", number_or_null(delay.most_s)}};
+}
+
+/// "95 +- 4 ms", or why it has no band.
+std::string dead_time_text(const MotionResult& result, std::size_t joint) {
+  const JointModel& model = result.model[joint];
+  const double value_ms = 1e3 * model.value[kDeadTime];
+  return at_bound(model, kDeadTime, result.usual_radps[joint])
+             ? fmt::format("{:.0f} ms, at bound", value_ms)
+             : fmt::format("{:.0f} +- {:.0f} ms", value_ms,
+                           kBand * 1e3 * model.deviation[kDeadTime]);
+}
+
+std::string edge_text(const MotionResult& result, std::size_t joint, bool forward) {
+  return driven(result, joint, forward) < kDrivenAtAll
+             ? std::string("-")
+             : fmt::format("{:.0f}",
+                           kPermille * edge(result.model[joint], forward ? kForward : kBackward));
+}
+
+std::string r2_text(bool known, double r2) {
+  return known ? fmt::format("{:.3f}", r2) : std::string("-");
+}
+
+/// Total delay of the direction that was driven farther.
+std::string delay_text(const MotionResult& result, std::size_t joint) {
+  const bool forward = driven(result, joint, true) >= driven(result, joint, false);
+  const double most = driven(result, joint, forward);
+  const TotalDelay delay = total_delay(result.model[joint], forward ? most : -most);
+  return std::isfinite(delay.most_s)
+             ? fmt::format("{:.0f}, {:.0f} ms", 1e3 * delay.half_s, 1e3 * delay.most_s)
+             : std::string("-");
 }
 
 std::string unsupported(const MotionResult& result, std::size_t joint) {
@@ -87,17 +194,62 @@ std::string unsupported(const MotionResult& result, std::size_t joint) {
   for (const bool forward : {true, false}) {
     const double most = forward ? result.driven[joint][1] : -result.driven[joint][0];
     const char* direction = forward ? "positive" : "negative";
-    if (most <= 0.0) {
+    if (most < kDrivenAtAll) {
       said += fmt::format("{}, {} commands: none was driven\n", kJointNames[joint], direction);
     } else if (most < kFar) {
       said += fmt::format("{}, {} commands: nothing beyond {:.0f} % was driven\n",
                           kJointNames[joint], direction, 100.0 * most);
     }
   }
+  constexpr double kMuch = 0.1;
+  if (result.unasked[joint] > kMuch) {
+    said += fmt::format(
+        "{}: {:.0f} % of its way it went with no command for a second: commands of one direction "
+        "cut off, of another source, or it sinks\n",
+        kJointNames[joint], 100.0 * result.unasked[joint]);
+  }
+  const Rivals& rivals = result.rivals[joint];
+  const std::string chosen = result.chosen(joint);
+  if (chosen != "physical") {
+    said += fmt::format(
+        "{}: the {} explains more than the physical model (R2 {:.3f}, {:.3f}): its velocity is "
+        "best "
+        "taken from there, and the figures of the physical one doubted\n",
+        kJointNames[joint], chosen == "curve" ? "curve with dead time and lag" : "ridge regression",
+        chosen == "curve" ? rivals.curve.judged_r2 : rivals.ridge.judged_r2,
+        result.judged[joint].velocity_r2);
+  }
   return said;
 }
 
 }  // namespace
+
+const char* MotionResult::chosen(std::size_t joint) const {
+  const Rivals& of = rivals[joint];
+  const double curve = of.curve.known ? of.curve.judged_r2 : -kLeastR2;
+  const double ridge = of.ridge.known ? of.ridge.judged_r2 : -kLeastR2;
+  if (!judged[joint].moved || judged[joint].velocity_r2 >= std::max(curve, ridge) - kLoses) {
+    return "physical";
+  }
+  return curve > ridge ? "curve" : "ridge";
+}
+
+double MotionResult::chosen_r2(std::size_t joint) const {
+  const std::string by = chosen(joint);
+  return by == "physical"
+             ? judged[joint].velocity_r2
+             : (by == "curve" ? rivals[joint].curve.judged_r2 : rivals[joint].ridge.judged_r2);
+}
+
+bool MotionResult::useless() const {
+  bool moved = false;
+  bool useful = false;
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    moved = moved || judged[joint].moved;
+    useful = useful || (judged[joint].moved && chosen_r2(joint) > kUselessR2);
+  }
+  return moved && !useful;
+}
 
 MotionSplit split_motion(std::vector<MotionRun> train, std::vector<MotionRun> judge) {
   MotionSplit split;
@@ -130,9 +282,12 @@ MotionResult identify_motion(const MotionSplit& split, const FitOptions& options
   result.model = fit_motion(split.train, options);
   result.trained = judge(result.model, split.train);
   result.judged = judge(result.model, split.judge);
+  result.rivals = fit_rivals(split.train, split.judge);
   result.trained_runs = split.train.size();
   result.judged_runs = split.judge.size();
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    result.usual_radps[joint] = usual_velocity(split.train, joint);
+    result.unasked[joint] = unasked_share(split.train, joint);
     for (const MotionRun& run : split.train) {
       const auto [least, most] =
           std::minmax_element(run.command[joint].begin(), run.command[joint].end());
@@ -147,45 +302,65 @@ std::string motion_json(const MotionResult& result) {
   nlohmann::ordered_json json;
   json["judged_runs"] = result.judged_runs;
   json["trained_runs"] = result.trained_runs;
+  json["notes"] = result.notes;
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     const JointModel& model = result.model[joint];
+    const Rivals& rivals = result.rivals[joint];
     nlohmann::ordered_json& axis = json["axes"][kJointNames[joint]];
     const Score& score = result.judged[joint];
-    if (score.moved) {
-      axis["velocity_r2"] = score.velocity_r2;
-    } else {
-      axis["velocity_r2"] = nullptr;
-    }
+    axis["velocity_r2"] = score.moved ? nlohmann::json(result.chosen_r2(joint)) : nullptr;
+    axis["model"] = result.chosen(joint);
+    axis["physical_r2"] = score.moved ? nlohmann::json(score.velocity_r2) : nullptr;
+    axis["curve_r2"] = rivals.curve.known ? nlohmann::json(rivals.curve.judged_r2) : nullptr;
+    axis["ridge_r2"] = rivals.ridge.known ? nlohmann::json(rivals.ridge.judged_r2) : nullptr;
     axis["angle_1s_rms_rad"] = score.angle_1s_rms_rad;
     axis["velocity_rms_unexplained_radps"] = score.velocity_rms_radps;
+    axis["way_without_command_share"] = result.unasked[joint];
+    if (!result.trained[joint].moved) {
+      continue;  // Nothing is known of it.
+    }
     axis["positive_command_turns"] = model.sign;
     axis["dead_time_s"] = model.value[kDeadTime];
+    axis["dead_time_deviation_s"] = at_bound(model, kDeadTime, result.usual_radps[joint])
+                                        ? nlohmann::json(nullptr)
+                                        : number_or_null(model.deviation[kDeadTime]);
     axis["lag_opening_s"] = mean_lag(model, 0);
     axis["lag_closing_s"] = mean_lag(model, 1);
-    axis["positive"] = curve_json(model, kForward);
-    axis["negative"] = curve_json(model, kBackward);
+    axis["delay_positive"] = delay_json(result, joint, true);
+    axis["delay_negative"] = delay_json(result, joint, false);
+    axis["positive"] = curve_json(result, joint, true);
+    axis["negative"] = curve_json(result, joint, false);
+    axis["fitted"] = fitted_json(result, joint);
   }
   return json.dump(2) + "\n";
 }
 
 std::string motion_text(const MotionResult& result) {
-  std::string text = fmt::format(
+  std::string text;
+  for (const std::string& note : result.notes) {
+    text += fmt::format("note: {}\n", note);
+  }
+  text += fmt::format(
       "{} runs, judged by {} others\n"
-      "axis     velocity R2  angle 1 s ahead  dead time        lag opens, closes  edge +, -\n",
+      "axis    R2: model  curve  ridge  1 s ahead  dead time       to 50, 90 %   lag opens, closes "
+      " "
+      "edge +, -\n",
       result.trained_runs, result.judged_runs);
   std::string missing;
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     const JointModel& model = result.model[joint];
     const Score& score = result.judged[joint];
+    const Rivals& rivals = result.rivals[joint];
     if (result.trained[joint].moved) {
       text += fmt::format(
-          "{:<8} {:>11}  {:>11.2f} deg  {:>3.0f} +- {:<3.0f} ms  {:>9.0f}, {:<3.0f} ms  "
-          "{:.0f}, {:.0f} of 1000\n",
+          "{:<7} {:>9}  {:>5}  {:>5}  {:>5.2f} deg  {:<15} {:<13} {:>6.0f}, {:<3.0f} ms      {}, "
+          "{}\n",
           kJointNames[joint], score.moved ? fmt::format("{:.3f}", score.velocity_r2) : "stood",
-          kDegrees * score.angle_1s_rms_rad, 1e3 * model.value[kDeadTime],
-          kBand * 1e3 * model.deviation[kDeadTime], 1e3 * mean_lag(model, 0),
-          1e3 * mean_lag(model, 1), kPermille * edge(model, kForward),
-          kPermille * edge(model, kBackward));
+          r2_text(rivals.curve.known && score.moved, rivals.curve.judged_r2),
+          r2_text(rivals.ridge.known && score.moved, rivals.ridge.judged_r2),
+          kDegrees * score.angle_1s_rms_rad, dead_time_text(result, joint),
+          delay_text(result, joint), 1e3 * mean_lag(model, 0), 1e3 * mean_lag(model, 1),
+          edge_text(result, joint, true), edge_text(result, joint, false));
       missing += unsupported(result, joint);
     } else {
       missing += fmt::format("{}: stood throughout, nothing is known of it\n", kJointNames[joint]);

@@ -35,7 +35,7 @@ const std::regex& message_line() {
 
 const std::regex& signal_line() {
   static const std::regex line(
-      R"(\s*SG_\s+(\w+)\s*(M|m\d+M?)?\s*:\s*(\d+)\s*\|\s*(\d+)\s*@\s*([01])\s*([+-])\s*\(([^,]+),([^)]+)\)\s*\[([^|]*)\|([^\]]*)\].*)");
+      R"re(\s*SG_\s+(\w+)\s*(M|m\d+M?)?\s*:\s*(\d+)\s*\|\s*(\d+)\s*@\s*([01])\s*([+-])\s*\(([^,]+),([^)]+)\)\s*\[([^|]*)\|([^\]]*)\]\s*(?:"([^"]*)")?.*)re");
   return line;
 }
 
@@ -103,6 +103,7 @@ DbcSignal signal_of(const std::smatch& words) {
   signal.offset = dbc_number(words[8].str());
   signal.least = dbc_number(words[9].str());
   signal.most = dbc_number(words[10].str());
+  signal.unit = words[11];
   if (signal.scale == 0.0) {
     refuse_line("scale 0; allowed: any other number");
   }

@@ -22,6 +22,7 @@ struct DbcSignal {
   double least = 0.0;  ///< Both 0: not said.
   double most = 0.0;
   std::string wrong = {};  ///< Why its line can't be used, with file and line; empty: nothing.
+  std::string unit = {};   ///< As the file has it.
   bool supported = true;   ///< Neither multiplexed, nor a float, nor of more than 32 bits.
 };
 

@@ -139,6 +139,53 @@ def says_what_is_not_known(graben, folder):
     assert said["axes"]["swing"]["velocity_r2"] is None and said["judged_runs"] == 1
 
 
+def differenced(rows):
+    """Velocities as most recordings have them: differences of angles with 0.5 mrad of noise."""
+    dice = random.Random(7)
+    noisy = [[float(row[3 * axis + 3]) + dice.gauss(0, 5e-4) for axis in range(4)] for row in rows]
+    result = []
+    for at, row in enumerate(rows):
+        new = list(row)
+        for axis in range(4):
+            near = [n for n in (at - 1, at + 1) if 0 <= n < len(rows) and rows[n][0] == row[0]]
+            apart = STEP_S * (max(near[-1], at) - min(near[0], at))
+            new[3 * axis + 3] = f"{noisy[at][axis]:.6f}"
+            new[3 * axis + 4] = f"{(noisy[max(near[-1], at)][axis] - noisy[min(near[0], at)][axis]) / apart:.6f}"
+        result.append(new)
+    return result
+
+
+def by_angles(graben, folder):
+    """Ratios, degrees, and no sensor of velocity: dead times come out all the same, and all is said."""
+    rows = differenced(recording(1, 10))
+    for row in rows:
+        for axis in range(4):
+            row[3 * axis + 2] = f"{float(row[3 * axis + 2]) / 1000:.4f}"
+            row[3 * axis + 3] = f"{math.degrees(float(row[3 * axis + 3])):.5f}"
+    summary = folder / "angles.json"
+    done = call(graben, "--csv", write(folder / "angles.csv", rows), "--summary", summary)
+    assert done.returncode == 0, done.stderr
+    for needle in ("they are ratios", "angle_rad_boom is in degrees", "velocity_radps_boom is a difference of the angles"):
+        assert needle in done.stdout, done.stdout
+    for axis, of in MACHINE.items():
+        found = json.loads(summary.read_text())["axes"][axis]
+        error_s = found["dead_time_s"] - of.dead_time_s
+        print(f"{axis} by its angles: dead time off by {1e3 * error_s:.1f} ms")
+        assert abs(error_s) < 0.025 and abs(error_s) < 4 * found["dead_time_deviation_s"], error_s
+        assert found["delay_positive"]["to_50_s"] > found["dead_time_s"] and found["model"] == "physical"
+        assert found["physical_r2"] > max(found["curve_r2"], found["ridge_r2"]) - 0.02
+        assert len(found["fitted"]["load_positive_by_pose"]["value"]) == 7
+
+
+def useless(graben, folder):
+    """Commands of another day."""
+    rows, other = recording(8, 3), recording(9, 3)
+    mixed = [[*row[:2], *(cell for axis in range(4) for cell in (other[at][3 * axis + 2], *row[3 * axis + 3:3 * axis + 5]))]
+             for at, row in enumerate(rows)]
+    done = call(graben, "--csv", write(folder / "mixed.csv", mixed), "--summary", folder / "mixed.json")
+    assert done.returncode == 1 and "no axis follows its command" in done.stderr, done.stdout + done.stderr
+
+
 def changed(rows, row, column, value):
     new = [list(line) for line in rows]
     new[row][COLUMNS.index(column)] = value
@@ -166,7 +213,7 @@ def bad_files(graben, folder, train, judge):
     bad("velocity_radps_swing is 50", changed(rows, 7, "velocity_radps_swing", "50"))
     bad("time_s goes on by 100", changed(rows, 7, "time_s", "100.3"))
     bad("time_s goes on by -", changed(rows, 7, "time_s", "0.1"))
-    bad("has no column velocity_radps_swing", [row[:-1] for row in rows], COLUMNS[:-1])
+    bad("has no column command_permille_swing", [[*row[:11], *row[12:]] for row in rows], [*COLUMNS[:11], *COLUMNS[12:]])
     bad("has the column run twice", rows, ["run", "run", *COLUMNS[2:]])
     bad("is the file cut off", [*rows, rows[-1][:5]])
     bad("lasts 0.95 s", rows[:20])
@@ -174,7 +221,7 @@ def bad_files(graben, folder, train, judge):
     bad("angle_rad_boom does not go where velocity_radps_boom leads",
         [[*row[:3], -float(row[3]), *row[4:]] for row in rows])
     bad("angle_rad_arm does not go where velocity_radps_arm leads",
-        [[*row[:6], math.degrees(float(row[6])), *row[7:]] for row in rows])
+        [[*row[:6], 3 * float(row[6]), *row[7:]] for row in rows])
     bad("no joint moves", recording(5, 3, standing=AXES, seconds=5))
     bad("1 runs: at least 3 are needed to leave one out", recording(5, 1, seconds=5))
     bad("is cut off or damaged", train.read_bytes()[:-2000], name="bad.csv.gz")
@@ -193,6 +240,8 @@ def main(graben):
         folder = pathlib.Path(name)
         train, judge = finds(graben, folder)
         says_what_is_not_known(graben, folder)
+        by_angles(graben, folder)
+        useless(graben, folder)
         bad_files(graben, folder, train, judge)
 
 

@@ -8,6 +8,7 @@
 #include "app/identify/machine/valve_model.hpp"
 #include "app/machines/answer_section.hpp"
 #include "app/reports/identify/identify_report.hpp"
+#include "app/reports/identify/page_style.hpp"
 #include "app/reports/identify/plot.hpp"
 
 namespace graben::reports {
@@ -29,43 +30,6 @@ constexpr double kExcerpt_s = 20.0;
 constexpr std::size_t kEvery = 2;
 /// No curve is drawn with more dots.
 constexpr std::size_t kMostDots = 400;
-
-constexpr const char* kStyle = R"(
-:root { color-scheme: light dark; --ink: #1c2733; --soft: #556472; --line: #d8dee5; --paper: #fff; --page: #f2f4f6;
-  --old: #5f6e7c; --new: #2566ac; --dot: #d98a00; --dot-word: #8a5600; }
-@media screen and (prefers-color-scheme: dark) {
-  :root { --ink: #e6eaed; --soft: #a4afb8; --line: #343d45; --paper: #181d22; --page: #0f1316;
-    --old: #97a4b0; --new: #78a8ff; --dot: #efb04a; --dot-word: #efb04a; }
-}
-* { box-sizing: border-box; }
-body { margin: 0; font: 15px/1.45 system-ui, sans-serif; color: var(--ink); background: var(--page); }
-main { max-width: 1180px; margin: 0 auto; padding: 28px 24px 48px; }
-h1 { margin: 0; font-size: 26px; } h1 small { font-weight: 400; color: var(--soft); font-size: 16px; margin-left: 10px; }
-h2 { margin: 0 0 8px; font-size: 16px; } h3 { margin: 0 0 4px; font-size: 14px; font-weight: 500; }
-section { background: var(--paper); border: 1px solid var(--line); border-radius: 8px; padding: 14px 16px; margin: 16px 0; }
-.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(400px, 100%), 1fr)); gap: 14px; }
-svg { display: block; width: 100%; height: auto; }
-pre { margin: 0; overflow-x: auto; font: 13px/1.5 ui-monospace, monospace; }
-p, li { max-width: 75em; } p { margin: 6px 0; color: var(--soft); }
-table { border-collapse: collapse; width: 100%; font-size: 13px; }
-th, td { text-align: left; padding: 4px 8px; border-bottom: 1px solid var(--line); vertical-align: top; overflow-wrap: anywhere; }
-section { min-width: 0; }
-th { font-weight: 500; color: var(--soft); } .grid { stroke: var(--ink); stroke-opacity: .1; fill: none; } .tick { font-size: 11px; fill: var(--soft); }
-.old { fill: none; stroke: var(--old); stroke-width: 1.5; stroke-dasharray: 5 4; }
-.new { fill: none; stroke: var(--new); stroke-width: 2; } .band { fill: var(--new); fill-opacity: .16; }
-.measured { fill: none; stroke: var(--ink); stroke-width: 1.2; } .dot { fill: var(--dot); fill-opacity: .45; }
-.key { font-weight: 600; } .key.n { color: var(--new); } .key.o { color: var(--old); } .key.d { color: var(--dot-word); }
-@media (max-width: 600px) { main { padding: 16px 10px 32px; } section { padding: 10px; } th, td { padding: 3px 4px; } }
-@media print { body { background: #fff; } section { break-inside: avoid; } }
-)";
-
-std::string listed(const std::vector<std::string>& items) {
-  std::string html = "<ul>\n";
-  for (const std::string& item : items) {
-    html += fmt::format("<li>{}</li>\n", html_escaped(item));
-  }
-  return html + "</ul>\n";
-}
 
 /// Old table: travel to the share of the coefficient.
 PlotPoints old_curve(const DriveRow& drive, bool extends) {
@@ -231,10 +195,6 @@ std::string curves(const IdentifyReport& report, const identify::DriveModel& old
   return html + "</div>\n";
 }
 
-std::string section(const std::string& title, const std::string& text, const std::string& body) {
-  return fmt::format("<section><h2>{}</h2>\n<p>{}</p>\n{}</section>\n", title, text, body);
-}
-
 }  // namespace
 
 std::string identify_page(const IdentifyReport& report) {
@@ -247,12 +207,8 @@ std::string identify_page(const IdentifyReport& report) {
   }
   const std::string table =
       prediction_table({{"old", &report.fit.before}, {"new", &report.fit.left_out}});
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta "
-      "name=\"viewport\" content=\"width=device-width\"><title>{0}: "
-      "identified</title>\n<style>{1}</style></head>\n<body><main>\n<h1>{0}"
-      "<small>identified from {2}</small></h1>\n",
-      html_escaped(report.machine.name), kStyle, html_escaped(report.from));
+  std::string html = page_head(report.machine.name + ": identified", report.machine.name,
+                               "identified from " + report.from);
   html +=
       section("Motion that was left out",
               fmt::format("Predicted from duties, pressures, swash and engine speed alone. {:.0f} "
@@ -276,7 +232,7 @@ std::string identify_page(const IdentifyReport& report) {
   html += section("What is missing", "What the logs do not say keeps its old value.",
                   report.fit.machine.missing.empty() ? "<p>Nothing.</p>\n"
                                                      : listed(report.fit.machine.missing));
-  return html + "</main></body>\n</html>\n";
+  return html + kPageEnd;
 }
 
 }  // namespace graben::reports

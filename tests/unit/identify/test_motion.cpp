@@ -11,6 +11,7 @@
 
 #include "app/identify/joint_cost.hpp"
 #include "app/identify/joint_motion.hpp"
+#include "app/identify/motion_delay.hpp"
 #include "app/identify/motion_result.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/refusal.hpp"
@@ -220,6 +221,32 @@ TEST(a_model_explains_its_own_motion) {
     assert_true(own[of].angle_1s_rms_rad < 0.02 && other[of].angle_1s_rms_rad > 0.1);
     assert_true(other[of].velocity_r2 < 0.5);
   }
+}
+
+TEST(a_velocity_of_angles_is_compared_with_angles) {
+  MotionRun of = obedient(0.1);
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    take_velocity_of_angle(of, joint);
+  }
+  const Velocities measured = predict_measured(machine(), of);
+  const Velocities seen = predict(machine(), of);
+  double apart = 0.0;
+  for (std::size_t row = 1; row < kRows; ++row) {
+    apart = std::max(apart, std::abs(measured[kBoom][row] - seen[kBoom][row]));
+  }
+  assert_true(apart > 1e-3);  // A mean over 0.1 s, and a lag of 0.03 s.
+  assert_true(judge(machine(), {of})[kBoom].velocity_r2 > 0.9);
+}
+
+TEST(total_delay_is_dead_time_and_lags) {
+  JointModel model = joint();
+  const TotalDelay delay = total_delay(model, 1.0);
+  assert_true(delay.half_s > 0.12 + 0.05 && delay.half_s < 0.12 + 0.4);
+  assert_true(delay.most_s > delay.half_s);
+  model.value[kDeadTime] += 0.1;
+  assert_near(total_delay(model, 1.0).half_s, delay.half_s + 0.1, 0.006);
+  std::fill_n(model.value.begin() + kForward, kRises, 0.0);
+  assert_true(std::isnan(total_delay(model, 1.0).half_s));
 }
 
 TEST(a_second_ahead_knows_nothing_of_that_second) {
