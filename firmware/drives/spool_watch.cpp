@@ -110,7 +110,8 @@ Fault follow(const DriveRow& drive, const SentCommand& command, int i, double sp
   const CommandHistory::Range range = state.range.now();
   const double tolerance = drive.watch.spool_tolerance;
   const bool wrong = spool_ratio < range.least - tolerance || spool_ratio > range.most + tolerance;
-  if (wrong && state.behind_cycles < kSpoolBehindCycles &&
+  // A valve that is tried has all that time already.
+  if (wrong && !command.tried && state.behind_cycles < kSpoolBehindCycles &&
       is_behind(spool_ratio, range, tolerance)) {
     fall_behind(spool_ratio, cycles, state);
     state.wrong_cycles = 0;

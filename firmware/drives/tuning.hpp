@@ -315,34 +315,6 @@ inline constexpr double kEmptyChamber_pa = 0.2e6;
 /// kEmptyChamber_pa, tried before, slowed commissioning]
 inline constexpr double kEmptyUnknown_pa = 1.5e6;
 
-// Spool lead (spool_lead.cpp)
-
-/// Time after which a led spool is to be where it is wanted. [s; chosen: the modelled spool's time
-/// constant, where it is no slower; not tried]
-inline constexpr double kLeadAhead_s = 0.02;
-/// Leading duty below which neutral is sent as neutral. [-; chosen: far within any dead band; not
-/// tried]
-inline constexpr double kLeadHome = 1e-3;
-
-// Trust in a led spool's model (led_spool.cpp)
-
-/// Share of the lead that is sent. [-; measured: 40 draws dry and in soil, boom's duty travels 8.9
-/// strokes a second at 1, 5.5 at 0.7, 4.8 at 0.5, for 20.9, 21.4 and 21.8 mm dry]
-inline constexpr double kLeadShare = 0.7;
-/// Most that the lead adds. [-; measured: boom's duty changes its sign 3.7 times a second without a
-/// bound, 2.5 at 0.3, 0.3 at 0.12, for 21.4 mm dry instead of 21.3]
-inline constexpr double kLeadMost = 0.12;
-/// Square of what a model is off, of the way that it goes within its time constant: up to this it
-/// is trusted. [-; measured: 40 draws of `all`, p95 35.6 mm without doubt, 37.0 at 1, 39.4 at 0.5]
-inline constexpr double kLeadDoubted = 1.5;
-/// The same from which on nothing is led. [-; measured: spools of 15 ms out and 50 ms home 65 / 124
-/// mm with the whole lead, 43 / 83 at 5; 50 and 15 ms 47 / 95 and 36 / 75]
-inline constexpr double kLeadGivenUp = 5.0;
-/// Time over which it is judged. [s; chosen: a few motions of a spool; not tried]
-inline constexpr double kLeadJudged_s = 2.0;
-/// Square of a way below which the model stands, and says nothing. [-; chosen: 1 % of the travel]
-inline constexpr double kLeadStill = 1e-4;
-
 // Spool parking (spool_parking.cpp)
 
 /// Time constant with which reversals are forgotten. [s; chosen: not tried]
@@ -401,7 +373,8 @@ inline constexpr double kRestCoastKept = 0.98;
 /// come every second cycle; not tried]
 inline constexpr int kSpoolWrongCycles = 4;
 /// Cycles that a spool may be behind on its way out, beyond what is told of it. [cycles; chosen:
-/// valves of 80 ms and commands that are 120 ms late come within 0.2 s; nothing moves meanwhile]
+/// valves of 80 ms and commands that are 120 ms late come within 0.2 s, and
+/// nothing moves meanwhile; not tried]
 inline constexpr int kSpoolBehindCycles = 30;
 /// Way of a spool below which it stands. [-; chosen: of its travel, above what its sensor shows at
 /// rest; not tried]

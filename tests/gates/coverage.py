@@ -14,8 +14,7 @@ import sys
 
 SOURCES = ("firmware/safety/*.cpp", "firmware/*/safety/*.cpp", "firmware/drives/*.cpp", "hal/link/e2e*.cpp")
 # What only controls; its tests are of another kind.
-CONTROL = {f"firmware/drives/{name}.cpp" for name in ("blocked", "drive_servo", "spool_lead", "spool_parking",
-                                                "velocity_cap")}
+CONTROL = {f"firmware/drives/{name}.cpp" for name in ("blocked", "drive_servo", "spool_parking", "velocity_cap")}
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--root", required=True, type=pathlib.Path)

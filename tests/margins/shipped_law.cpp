@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "firmware/drives/spool_lead.hpp"
+#include "firmware/drives/lead/spool_lead.hpp"
 
 namespace graben::margins {
 namespace {
@@ -111,10 +111,11 @@ Eigen::Vector2d LawInTime::step(const Eigen::Vector4d& seen, State& state) const
   state.segment<2>(kAsked) = asked_mps;
   Eigen::Vector2d duty_mps;
   for (int axis = 0; axis < 2; ++axis) {
-    SpoolModel spool = {kDutyAtRest + state[kSpool + axis], state[kSpoolSpeed + axis]};
+    LedSpool led;
+    led.model = {kDutyAtRest + state[kSpool + axis], state[kSpoolSpeed + axis]};
     const double wanted = kDutyAtRest + kDutyOfSpeed_spm * asked_mps[axis];
-    const double duty = led_duty(spool_time_constant_s_, wanted, spool);
-    spool = spool_after(spool_time_constant_s_, duty, spool);
+    const double duty = trusted_lead(spool_time_constant_s_, wanted, led);
+    const SpoolModel spool = spool_after(spool_time_constant_s_, duty, led.model);
     duty_mps[axis] = (duty - kDutyAtRest) / kDutyOfSpeed_spm;
     state[kSpool + axis] = spool.travel_ratio - kDutyAtRest;
     state[kSpoolSpeed + axis] = spool.speed_ps;

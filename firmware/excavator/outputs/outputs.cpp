@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/excavator/outputs/outputs.hpp"
 
-#include <algorithm>
-
 #include "firmware/excavator/tuning.hpp"
 
 namespace graben {
@@ -84,7 +82,7 @@ GateResult send(const ExcavatorModel& machine, const ExcavatorValid& valid, bool
   const GateResult gated =
       gate_duties(machine.drives, active, led, cycle.period_s, state.sent, duty_ratio);
   if (!leads || !gated.enable) {
-    std::for_each(state.spool.begin(), state.spool.end(), rest_led);
+    state.spool = {};
     return gated;
   }
   state.led_s = time_s;

@@ -3,7 +3,7 @@
 /// Fifth stage of a cycle: from what may be followed to what the valve and the pumps are sent.
 
 #include "firmware/drives/drive_gate.hpp"
-#include "firmware/drives/led_spool.hpp"
+#include "firmware/drives/lead/spool_lead.hpp"
 #include "firmware/excavator/limits/limits.hpp"
 #include "firmware/excavator/outputs/pump_demand.hpp"
 

@@ -5,71 +5,10 @@
 #include <cmath>
 
 #include "tests/unit/cmocka_cpp.hpp"
-#include "tests/unit/firmware/excavator_steps.hpp"
-#include "tests/unit/firmware/plain_machine.hpp"
+#include "tests/unit/firmware/watched_valve.hpp"
 
 using test::spools_centred;
-
-constexpr double kTolerance = 0.125;
-/// Of 0.1 s to settle three tenths until it starts, and 20 ms that its frame may be old, in cycles.
-constexpr int kStarts = 5;
-/// A cycle's share of a lag of 0.035 s.
-constexpr double kShare = 0.01 / 0.045;
-
-/// Cycles until a spool that stays where it is while its duty goes `way` off is found stuck. What
-/// two equal lags have left of a step after n of their cycles is (1 - k)^n (1 + n k).
-int cycles_to_find(int starts, double way, double share = kShare) {
-  int n = 1;
-  while (way * (1.0 - std::pow(1.0 - share, n) * (1.0 + n * share)) <= kTolerance) {
-    ++n;
-  }
-  return starts - 1 + n + kSpoolWrongCycles - 1;
-}
-
-void all_at(ExcavatorValid& valid, double spool_ratio) {
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    valid.drive[i].spool_ratio = spool_ratio;
-  }
-}
-
-/// A valve and what is sent to it, cycle by cycle. Its spools are where `measured` says.
-struct Valve {
-  ExcavatorProfile profile = test::plain_machine();
-  test::SpoolWatch state;
-  LastCommands<kDriveCount> sent;
-  ExcavatorValid valid;
-
-  /// Whether this cycle finds a spool stuck.
-  bool stuck() { return step().has(Fault::kSpoolStuck); }
-  /// Whether it finds that the valve side does not say what we say.
-  bool deaf() { return step().has(Fault::kValveNotFollowing); }
-  FaultSet step() { return test::watch_spools(profile, state, sent, valid); }
-  /// Cycles until a fault, counting the one that has it; -1 if none comes.
-  int cycles_until(Fault fault) {
-    for (int n = 1; n <= 200; ++n) {
-      if (step().has(fault)) {
-        return n;
-      }
-    }
-    return -1;
-  }
-  void settle(double duty) {
-    sent.duty_ratio = {duty, duty, duty};
-    all_at(valid, duty);
-    repeat(CommandHistory::kMostCycles, [&] { assert_false(stuck()); });
-  }
-  /// Settled there, and told to close.
-  void close_from(double duty) {
-    settle(duty);
-    sent.duty_ratio = {0.0, 0.0, 0.0};
-  }
-  /// Settled at rest, and its first spool tried.
-  void try_boom(bool tried = true) {
-    settle(0.0);
-    sent.tried = tried;
-    sent.duty_ratio = {0.8, 0.0, 0.0};
-  }
-};
+using namespace test::valve;
 
 TEST(a_spool_at_its_duty_is_well) {
   for (const double duty : {0.0, 0.75, -0.75, 1.0, -1.0}) {
@@ -222,7 +161,7 @@ bool is_found(double lag_s, int late_cycles, double last_lag_s) {
 }
 
 /// Whatever its lag up to the bound, constant or not, and however late up to it: no command makes a
-/// sound spool look stuck. One that is slower, or later, is.
+/// sound spool look stuck. Nor one of twice the lag, which is slow; one that hardly comes is.
 TEST(no_sound_spool_is_stuck) {
   for (const double lag_s : {0.0, 0.005, 0.015, 0.025, 0.035}) {
     for (int late = 0; late < kStarts; ++late) {
@@ -230,8 +169,7 @@ TEST(no_sound_spool_is_stuck) {
       assert_false(is_found(lag_s, late, 0.035 - lag_s));
     }
   }
-  assert_true(is_found(0.070, kStarts - 1, 0.070));
-  assert_true(is_found(0.035, kStarts + 2, 0.035));
+  assert_true(is_found(0.5, 0, 0.5));
 }
 
 /// From wherever the ring stands: a command counts for as long, across its end as well.
@@ -245,76 +183,6 @@ TEST(the_ring_has_no_seam) {
     all_at(valve.valid, 1.0);
     assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), cycles_to_find(kStarts, 1.0));
   }
-}
-
-/// A spool that follows with two lags from a number of cycles on.
-struct SlowSpool {
-  double lag_cycles = 0.0;
-  int late_cycles = 0;
-  std::array<double, 64> sent{};
-  double first = 0.0;
-  double travel = 0.0;
-
-  double after(double duty) {
-    std::rotate(sent.begin(), sent.end() - 1, sent.end());
-    sent[0] = duty;
-    first += (sent[static_cast<unsigned>(late_cycles)] - first) / (1.0 + lag_cycles);
-    travel += (first - travel) / (1.0 + lag_cycles);
-    return travel;
-  }
-};
-
-/// Opened for a second and closed again, both ways in turn; the first fault.
-Fault worked(SlowSpool spool) {
-  Valve valve;
-  for (int n = 0; n < 1000; ++n) {
-    const double duty = (n / 100) % 2 == 1 ? 0.0 : ((n / 200) % 2 == 0 ? 0.6 : -0.6);
-    valve.sent.duty_ratio = {duty, 0.0, 0.0};
-    valve.valid.drive[kBoom].spool_ratio = spool.after(duty);
-    const FaultSet faults = valve.step();
-    if (!faults.empty()) {
-      return faults.first();
-    }
-  }
-  return Fault::kNone;
-}
-
-/// What moves all the while is slow, and is known to be from its first opening on; what stands
-/// first is late; what does not come, or stays open, is stuck.
-TEST(slow_late_and_stuck_are_three_words) {
-  for (const double lag_cycles : {2.0, 4.0, 6.0, 8.0}) {
-    assert_true(worked({lag_cycles, 0}) == Fault::kNone);
-  }
-  assert_true(worked({2.0, 4}) == Fault::kNone);
-  for (const int late_cycles : {14, 18, 24}) {
-    assert_true(worked({1.0, late_cycles}) == Fault::kSpoolLate);
-  }
-  assert_true(worked({1.0, 60}) == Fault::kSpoolStuck);
-  Valve stands;
-  stands.settle(0.0);
-  stands.sent.duty_ratio = {0.6, 0.0, 0.0};
-  const int found = stands.cycles_until(Fault::kSpoolStuck);
-  assert_true(found > kSpoolBehindCycles && found <= kSpoolBehindCycles + 20);
-}
-
-/// To be slow on its way out gives no time to one that does not close: no more than it was behind.
-TEST(a_slow_spool_that_stays_open_is_stuck, Valve valve) {
-  SlowSpool spool{6.0, 0};
-  for (int n = 0; n < 200; ++n) {
-    valve.sent.duty_ratio = {0.6, 0.0, 0.0};
-    valve.valid.drive[kBoom].spool_ratio = spool.after(0.6);
-    assert_true(valve.step().empty());
-  }
-  valve.sent.duty_ratio = {0.0, 0.0, 0.0};
-  const int found = valve.cycles_until(Fault::kSpoolStuck);
-  assert_true(found > cycles_to_find(kStarts, 0.6) && found <= 60);
-}
-
-/// Beyond neutral, on the side that nobody asked for, it has no more time than any other.
-TEST(on_the_wrong_side_it_is_stuck_at_once, Valve valve) {
-  valve.settle(0.5);
-  valve.valid.drive[kBoom].spool_ratio = -0.3;
-  assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
 }
 
 /// On its way anywhere between the least and the most of late a spool is well.
@@ -415,7 +283,7 @@ TEST(the_slowest_spool_may_be_tried) {
       lag[0] += (n < 25 ? 0.0 : 0.8 - lag[0]) / 16.0;
       lag[1] += (lag[0] - lag[1]) / 16.0;
       slow.valid.drive[kBoom].spool_ratio = lag[1];
-      stuck = slow.stuck() || stuck;
+      stuck = !slow.step().empty() || stuck;
     }
     assert_true(stuck != tried);
   }

@@ -62,8 +62,8 @@ TEST(a_locked_machine_does_not_move) {
     m.step();
     assert_false(m.rig.plant.spools_enabled());
   }
-  // Its pilot pressures do not come.
-  assert_int_equal(m.status().fault, Fault::kSpoolStuck);
+  // Its pilot pressures do not come, and its gateway says so before they are late.
+  assert_int_equal(m.status().fault, Fault::kValveNotFollowing);
 }
 
 TEST(lock) {
@@ -72,7 +72,7 @@ TEST(lock) {
   m.faults().locked = true;
   static_cast<void>(m.machine_neutral_after(kCycle_ms));
   m.controller_stops_within(kEcho_ms);
-  assert_int_equal(m.status().fault, Fault::kSpoolStuck);
+  assert_int_equal(m.status().fault, Fault::kValveNotFollowing);
 }
 
 /// Of a machine whose pilot pressures are not looked at, its state alone says so.

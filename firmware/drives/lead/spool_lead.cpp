@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/drives/spool_lead.hpp"
+#include "firmware/drives/lead/spool_lead.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "firmware/core/time.hpp"
-#include "firmware/drives/tuning.hpp"
+#include "firmware/drives/lead/tuning.hpp"
 
 namespace graben {
 namespace {
@@ -19,6 +19,12 @@ SpoolModel after(const SpoolModel& spool, double time_constant_s, double duty_ra
   const double left = std::exp(-omega_ps * time_s);
   return {duty_ratio + (missing + slope * time_s) * left,
           (slope - omega_ps * (missing + slope * time_s)) * left};
+}
+
+/// 1: it goes as its model does; 0: it does not.
+double trust(const LedSpool& spool) {
+  const double off = spool.missed / (spool.gone + kLeadStill);
+  return std::clamp((kLeadGivenUp - off) / (kLeadGivenUp - kLeadDoubted), 0.0, 1.0);
 }
 
 }  // namespace
@@ -39,6 +45,24 @@ double led_duty(double time_constant_s, double wanted_ratio, const SpoolModel& s
 SpoolModel spool_after(double time_constant_s, double sent_ratio, const SpoolModel& spool) {
   return time_constant_s > 0.0 ? after(spool, time_constant_s, sent_ratio, kCyclePeriod_s)
                                : SpoolModel{sent_ratio, 0.0};
+}
+
+double trusted_lead(double time_constant_s, double wanted_ratio, const LedSpool& spool) {
+  const double leading = led_duty(time_constant_s, wanted_ratio, spool.model) - wanted_ratio;
+  return wanted_ratio + trust(spool) * std::clamp(kLeadShare * leading, -kLeadMost, kLeadMost);
+}
+
+void next_led(double time_constant_s, double sent_ratio, LedSpool& spool) {
+  spool.last = spool.model;
+  spool.model = spool_after(time_constant_s, sent_ratio, spool.model);
+}
+
+void judge_model(double time_constant_s, double measured_ratio, LedSpool& spool) {
+  const double newest = kCyclePeriod_s / kLeadJudged_s;
+  const double missed = measured_ratio - spool.last.travel_ratio;
+  const double gone = time_constant_s * spool.last.speed_ps;
+  spool.missed += newest * (missed * missed - spool.missed);
+  spool.gone += newest * (gone * gone - spool.gone);
 }
 
 }  // namespace graben

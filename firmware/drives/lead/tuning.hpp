@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Judgements about the lead through a spool's lag: each was chosen.
+
+namespace graben {
+
+/// Time after which a led spool is to be where it is wanted. [s; chosen: the modelled spool's time
+/// constant, where it is no slower; not tried]
+inline constexpr double kLeadAhead_s = 0.02;
+/// Leading duty below which neutral is sent as neutral. [-; chosen: far within any dead band; not
+/// tried]
+inline constexpr double kLeadHome = 1e-3;
+
+/// Share of the lead that is sent. [-; measured: `campaign dig --draws 40`: boom's duty travels 8.9
+/// strokes a second at 1, 5.5 at 0.7, 4.8 at 0.5, for 20.9, 21.4 and 21.8 mm dry]
+inline constexpr double kLeadShare = 0.7;
+/// Most that the lead adds. [-; measured: `campaign dig --draws 40`: boom's duty changes its sign
+/// 3.7 times a second without a bound, 2.5 at 0.3, 0.3 at 0.12, for 21.4 mm dry instead of 21.3]
+inline constexpr double kLeadMost = 0.12;
+/// Square of what a model is off, of the way that it goes within its time constant: up to this it
+/// is trusted. [-; measured: `campaign dig --draws 40`: p95 35.6 mm without doubt, 37.0 at 1, 39.4
+/// at 0.5]
+inline constexpr double kLeadDoubted = 1.5;
+/// The same from which on nothing is led. [-; measured: `campaign dig --draws 40 --found
+/// spool_lag=0.015,spool_closes=0.05`: 65 / 124 mm with the whole lead, 43 / 83 at 5]
+inline constexpr double kLeadGivenUp = 5.0;
+/// Time over which it is judged. [s; chosen: a few motions of a spool; not tried]
+inline constexpr double kLeadJudged_s = 2.0;
+/// Square of a way below which the model stands, and says nothing. [-; chosen: 1 % of the travel;
+/// not tried]
+inline constexpr double kLeadStill = 1e-4;
+
+}  // namespace graben
