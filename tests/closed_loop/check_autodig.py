@@ -24,7 +24,7 @@ FIGURES = {
     "duration_s", "real_time_factor", "cycles", "cycle_median_us", "cycle_max_us", "steps",
     "limit_share", "lambda_variation_ps", "spool_travel_ps", "spool_reversals_ps",
     "teeth_jerk_rms_mps3", "energy_per_round_j", "energy_j", "energy_bypass_relief_share",
-    "swash_mean", "over_cut_max_m", "cut_m3", "cut_m3ph", "fill_max_m3", "tip_force_within_ratio",
+    "swash_mean", "duty_travel_ps", "duty_sign_changes_ps", "over_cut_max_m", "cut_m3", "cut_m3ph", "fill_max_m3", "tip_force_within_ratio",
     "tip_force_error_n", "tip_force_spread", "payload_error_ratio", "payload_spread",
     "built_within_ratio", "built_high_m", "built_low_m", "built_left_m3", "built_over_cut_m3",
     "built_median_m", "built_map", "full_rounds_ratio", "payload_within_ratio", "energy_per_m3_j"}

@@ -79,3 +79,51 @@ TEST(on_the_wrong_side_it_is_stuck_at_once, Valve valve) {
   valve.valid.drive[kBoom].spool_ratio = -0.3;
   assert_int_equal(valve.cycles_until(Fault::kSpoolStuck), kSpoolWrongCycles);
 }
+
+/// Open at once, and home with another lag: the first fault.
+Fault closed(double home_cycles) {
+  Valve valve;
+  SlowSpool spool;
+  for (int n = 0; n < 400; ++n) {
+    const double duty = n % 200 < 100 ? 0.8 : 0.0;
+    spool.lag_cycles = duty > 0.0 ? 0.0 : home_cycles;
+    valve.sent.duty_ratio = {duty, 0.0, 0.0};
+    valve.valid.drive[kBoom].spool_ratio = spool.after(duty);
+    const FaultSet faults = valve.step();
+    if (!faults.empty()) {
+      return faults.first();
+    }
+  }
+  return Fault::kNone;
+}
+
+/// On its way home it may be slow, for 0.3 s beyond what is told.
+TEST(a_spool_may_close_slowly) {
+  for (const double home_cycles : {0.0, 5.0, 8.0}) {
+    assert_true(closed(home_cycles) == Fault::kNone);
+  }
+  assert_true(closed(60.0) == Fault::kSpoolStuck);
+}
+
+/// Behind from a little beyond neutral it has its time, too; from farther on the other side not.
+TEST(behind_begins_at_neutral) {
+  for (const double at_ratio : {-0.1, -0.2}) {
+    Valve valve;
+    valve.settle(0.0);
+    valve.sent.duty_ratio = {0.6, 0.0, 0.0};
+    valve.valid.drive[kBoom].spool_ratio = at_ratio;
+    const int found = valve.cycles_until(Fault::kSpoolStuck);
+    assert_true((found > kSpoolBehindCycles) == (at_ratio > -kTolerance));
+  }
+}
+
+/// A command that comes back to where the spool stands has taught nothing.
+TEST(a_command_that_comes_back_teaches_nothing, Valve valve) {
+  valve.settle(0.6);
+  valve.valid.drive[kBoom].spool_ratio = 0.4;
+  repeat(10, [&] { assert_true(valve.step().empty()); });
+  valve.sent.duty_ratio = {0.4, 0.6, 0.6};
+  repeat(10, [&] { assert_true(valve.step().empty()); });
+  assert_int_equal(valve.state.spool[kBoom].behind_cycles, 0);
+  assert_int_equal(valve.state.spool[kBoom].later_cycles, 0);
+}
