@@ -30,7 +30,7 @@ struct LedSpool {
   double gone = 0.0;    ///< The same of the way that the model goes within its time constant.
 };
 
-/// The duty for `wanted_ratio`: the lead, bounded, as far as the model is trusted.
+/// The duty for `wanted_ratio`: the lead, as far as the model is trusted.
 [[nodiscard]] double trusted_lead(double time_constant_s, double wanted_ratio,
                                   const LedSpool& spool);
 

@@ -11,10 +11,6 @@ inline constexpr double kLeadAhead_s = 0.02;
 /// tried]
 inline constexpr double kLeadHome = 1e-3;
 
-/// Most that the lead adds. [-; measured: `campaign dig --draws 40`: dry 20.9 mm without a
-/// bound, 21.3 at 0.2; boom's duty changes its sign 3.7 and 3.2 times a second; 0.3 at 0.12 and 0.7
-/// of the lead, where the exact machine at half speed has 6.5 instead of 5.6 mm]
-inline constexpr double kLeadMost = 0.2;
 /// Square of what a model is off, of the way that it goes within its time constant: up to this it
 /// is trusted. [-; measured: `campaign dig --draws 40`: p95 35.6 mm without doubt, 37.0 at 1, 39.4
 /// at 0.5]
