@@ -311,6 +311,8 @@ struct Following {
 TEST(no_spool_is_led_by_a_model_that_it_does_not_follow) {
   Following sound{0.02, {}, {}};
   sound.go(20.0);
+  sound.added = 0.0;  // The way from rest is another.
+  sound.go(5.0);
   assert_true(sound.added > 0.05);
   Following slow{0.06, {}, {}};
   slow.go(20.0);
@@ -319,6 +321,7 @@ TEST(no_spool_is_led_by_a_model_that_it_does_not_follow) {
   assert_true(slow.added < 0.2 * sound.added);
   slow.lag_s = 0.02;
   slow.go(20.0);
+  slow.go(5.0);
   assert_true(slow.added > 0.5 * sound.added);
 }
 
