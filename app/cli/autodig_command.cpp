@@ -15,6 +15,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/autodig_run.hpp"
 #include "app/runs/code_text.hpp"
+#include "app/runs/held_lately.hpp"
 #include "app/runs/plant_faults.hpp"
 #include "app/runs/run_log.hpp"
 #include "app/scope/page/scope_page.hpp"
@@ -49,9 +50,10 @@ void name_fences(const machines::TaskFile& task, runs::LimitShares& shares) {
 
 void throw_unless_done(const machines::TaskFile& task, const runs::AutodigResult& result) {
   if (result.end == runs::AutodigEnd::kFault) {
-    throw std::runtime_error(fmt::format("the controller stopped with a fault: {} (fault {})",
-                                         runs::fault_words(result.fault),
-                                         static_cast<int>(result.fault)));
+    throw std::runtime_error(
+        fmt::format("the controller stopped with a fault: {} (fault {}){}",
+                    runs::fault_words(result.fault), static_cast<int>(result.fault),
+                    runs::held_lately(result.fault, result.samples, runs::excavator_actuators())));
   }
   if (result.end == runs::AutodigEnd::kNotFinished) {
     const runs::AutodigSample& last = result.samples.back();

@@ -20,6 +20,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/code_text.hpp"
 #include "app/runs/dig_run.hpp"
+#include "app/runs/held_lately.hpp"
 #include "app/runs/plant_faults.hpp"
 #include "app/runs/run_log.hpp"
 #include "app/scope/page/scope_page.hpp"
@@ -140,12 +141,14 @@ void dig(const DigCommand& options) {
                                     result.samples.empty() ? 0.0 : result.samples.back().time_s,
                                     result.fault != Fault::kNone));
   if (result.end != runs::DigEnd::kDone) {
-    throw std::runtime_error(result.end == runs::DigEnd::kFault
-                                 ? fmt::format("{}: {} (fault {}){}", end_text(result.end),
-                                               runs::fault_words(result.fault),
-                                               static_cast<int>(result.fault),
-                                               runs::emergency_words(result.emergency))
-                                 : end_text(result.end));
+    throw std::runtime_error(
+        result.end == runs::DigEnd::kFault
+            ? fmt::format(
+                  "{}: {} (fault {}){}{}", end_text(result.end), runs::fault_words(result.fault),
+                  static_cast<int>(result.fault),
+                  runs::held_lately(result.fault, result.samples, runs::excavator_actuators()),
+                  runs::emergency_words(result.emergency))
+            : end_text(result.end));
   }
 }
 

@@ -21,6 +21,7 @@
 #include "app/reports/run_reports.hpp"
 #include "app/runs/fastest_speed.hpp"
 #include "app/runs/grade_run.hpp"
+#include "app/runs/held_lately.hpp"
 #include "app/runs/plant_faults.hpp"
 #include "app/runs/run_log.hpp"
 #include "app/runs/speed_table.hpp"
@@ -46,8 +47,9 @@ struct GradeCommand {
 
 std::string end_text(const runs::GradeResult& result) {
   return result.end == runs::GradeEnd::kFault
-             ? fmt::format("the controller stopped with a fault: {} (fault {})",
-                           runs::fault_words(result.fault), static_cast<int>(result.fault))
+             ? fmt::format("the controller stopped with a fault: {} (fault {}){}",
+                           runs::fault_words(result.fault), static_cast<int>(result.fault),
+                           runs::held_lately(result.fault, result.samples, runs::dozer_actuators()))
              : fmt::format(
                    "the grade was not finished in time; --seconds gives it more than these {:.0f} "
                    "s",

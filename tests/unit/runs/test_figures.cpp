@@ -12,6 +12,7 @@
 #include "app/runs/campaign_file.hpp"
 #include "app/runs/dig_run.hpp"
 #include "app/runs/grade_run.hpp"
+#include "app/runs/held_lately.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
 using namespace graben::runs;
@@ -125,4 +126,27 @@ TEST(a_campaign_tells_the_bad_end) {
   const std::string table = campaign_table(kind, data);
   assert_non_null(strstr(table.c_str(), "    50.000    95.000   100.000 mm\n"));
   assert_non_null(strstr(table.c_str(), "     0.500     0.050     0.010 (p5, min)\n"));
+}
+
+/// Of 20 s: pump flow first, then for the last 5 s before it stops the boom's back flow, a fifth of
+/// it the bucket's.
+TEST(a_stall_says_what_it_lacked) {
+  std::vector<DigSample> samples;
+  for (int n = 0; n < 2000; ++n) {
+    DigSample sample;
+    sample.time_s = 0.01 * n;
+    const bool early = n < 1300;
+    const bool over = n >= 1900;
+    sample.limit = over    ? graben::Limit{}
+                   : early ? graben::Limit{graben::LimitKind::kPumpFlow, 0}
+                           : graben::Limit{graben::LimitKind::kBackFlow,
+                                           static_cast<std::uint8_t>(n % 5 == 0 ? 2 : 0)};
+    samples.push_back(sample);
+  }
+  const ActuatorNames& names = excavator_actuators();
+  assert_string_equal(held_lately(graben::Fault::kStalled, samples, names).c_str(),
+                      ", held by back flow: boom 80 %, back flow: bucket 20 %");
+  assert_string_equal(held_lately(graben::Fault::kPathLeft, samples, names).c_str(), "");
+  assert_string_equal(
+      held_lately(graben::Fault::kStalled, std::vector<DigSample>(9), names).c_str(), "");
 }
