@@ -62,6 +62,11 @@ inline constexpr CommandRow kCommands[] = {
      "How the IMUs sit on their links, from a log in which the bucket's edge stood on one fixed "
      "point in several postures, each for 10 s; into the profile's [imu]. --record makes such a "
      "log with a simulated machine"},
+    {"as-built", "built",
+     "The ground as a machine's cutting edge has left it, from a day's logs: LandXML, points, "
+     "ASCII "
+     "grid, with date and machine; against a design cut and fill. What no edge has touched it does "
+     "not know"},
     {"scope", "scope",
      "The machine in a browser: posed, with plots and faults, from what is on the bus. Serves a "
      "page until SIGINT or SIGTERM; a bus is only heard. Needs no privilege"},

@@ -91,6 +91,17 @@ machines::DesignLine along(const Surface& surface, const DesignSource& source,
 
 }  // namespace
 
+Surface surface_of(const DesignSource& source) {
+  const DesignKind kind = kind_of(source);
+  if (kind == DesignKind::kLine) {
+    throw std::runtime_error(fmt::format(
+        "{}: is a line a corner, which is no surface; allowed: LandXML, or points (.xyz, .csv, "
+        ".pts, or as --columns say)",
+        source.file.string()));
+  }
+  return surface_of(source, kind);
+}
+
 DesignKind kind_of(const DesignSource& source) {
   const std::string ending = ending_of(source.file);
   if (is_xml(source.file)) {

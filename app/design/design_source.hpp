@@ -36,6 +36,10 @@ enum class DesignKind { kLandXml, kPoints, kLine };
 /// corner where it is .txt, in whatever letters. Throws std::runtime_error for any other ending.
 [[nodiscard]] DesignKind kind_of(const DesignSource& source);
 
+/// The surface of a LandXML file or of points. Throws as their readers, and std::runtime_error for
+/// a line a corner and for an option that such a file has no use for.
+[[nodiscard]] Surface surface_of(const DesignSource& source);
+
 /// The design along the track. Throws as the readers, and std::runtime_error where an option is
 /// told that such a file has no use for.
 [[nodiscard]] machines::DesignLine line_of(const DesignSource& source, const BladeAcross& blade);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Ground that a cutting edge has made, on a grid of cells seen from above: at each cell's centre
+/// the newest and the lowest height at which the edge was there, when and how often.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "app/built/edge_log.hpp"
+
+namespace graben::built {
+
+struct Cell {
+  double lowest_m = 0.0;
+  double lowest_s = 0.0;  ///< When, as the log has it.
+  double newest_m = 0.0;  ///< Lowest of the last pass.
+  double newest_s = 0.0;
+  std::uint32_t passes = 0;
+};
+
+/// A cell by its number along x and y; its centre is half a cell on.
+struct CellPlace {
+  std::int32_t i = 0;
+  std::int32_t j = 0;
+};
+
+inline constexpr double kLeastGrid_m = 0.02;
+inline constexpr double kMostGrid_m = 2.0;
+inline constexpr std::size_t kMostCells = 1'000'000;
+/// Passes over a cell are two where no less lies between them, s.
+inline constexpr double kPass_s = 1.0;
+/// A newest pass this much over the lowest one went through soil that has come there, m.
+inline constexpr double kFallen_m = 0.01;
+
+/// Calls `take` with each cell whose centre is in the triangle, seen from above, and the height of
+/// the triangle there. A triangle that stands upright has none.
+void over_cells(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                double grid_m, const std::function<void(const CellPlace&, double height_m)>& take);
+
+class CellGrid {
+ public:
+  explicit CellGrid(double grid_m) : grid_m_(grid_m) {}
+
+  /// The edge went over the ground between its two places. That is ground where the edge was at
+  /// work; and, at work or not, where it went below ground that is known there: it can only have
+  /// cut that. Throws std::runtime_error beyond kMostCells.
+  void add(const EdgeStep& step);
+
+  [[nodiscard]] double grid_m() const { return grid_m_; }
+  [[nodiscard]] std::size_t size() const { return cell_.size(); }
+  /// In the order of y, then x.
+  [[nodiscard]] std::vector<std::pair<CellPlace, Cell>> sorted() const;
+  [[nodiscard]] const Cell* at(const CellPlace& place) const;
+  [[nodiscard]] Eigen::Vector2d centre_m(const CellPlace& place) const {
+    return grid_m_ * Eigen::Vector2d(place.i + 0.5, place.j + 0.5);
+  }
+
+ private:
+  [[nodiscard]] static std::uint64_t key(const CellPlace& place) {
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(place.j)) << 32U) |
+           static_cast<std::uint32_t>(place.i);
+  }
+  void pass(const CellPlace& place, double height_m, double time_s, bool at_work);
+
+  double grid_m_;
+  std::unordered_map<std::uint64_t, Cell> cell_;
+};
+
+}  // namespace graben::built
