@@ -134,7 +134,7 @@ std::string points_text(const BuiltGround& ground, const BuiltHead& head) {
                                  head.project, of_machine(head), height_words(head.height));
   std::replace_if(
       what.begin(), what.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
-  fmt::format_to(to, "# {}\nx,y,z,time,n,lowest,newest{}\n", what, has_design ? ",off" : "");
+  fmt::format_to(to, "# {}\nx,y,z,time,passes,lowest,newest{}\n", what, has_design ? ",off" : "");
   for (const BuiltPoint& point : ground.point) {
     fmt::format_to(to, "{:.4f},{:.4f},{:.4f},{},{},{:.4f},{:.4f}", point.at_m.x(), point.at_m.y(),
                    point.at_m.z(), utc_text(point.time_s, 2), point.passes, point.lowest_m,

@@ -113,9 +113,10 @@ built::CellGrid read_logs(const AsBuiltCommand& options, const machines::AnyMach
   }
   if (grid.size() == 0) {
     throw std::runtime_error(fmt::format(
-        "{}: the edge went {:.1f} m, {:.1f} m of it at work, and over no cell of {} m; with "
-        "--ground every each place where it was counts",
-        options.logs.back(), head.way_m, head.worked_m, options.grid_m));
+        "{}: the edge went {:.1f} m, {:.1f} m of it at work, and over no cell of {} m; {}",
+        options.logs.back(), head.way_m, head.worked_m, options.grid_m,
+        head.worked_m > 0.0 ? "a smaller --grid has more"
+                                       : "with --ground every each place where it was counts"));
   }
   return grid;
 }

@@ -141,7 +141,7 @@ TEST(points_have_their_time_and_both_heights) {
   const std::string text = built::points_text(ground(built::BuiltHeight::kNewest), head());
   assert_true(has(text, "# A & B \"<1>\" next: as built by mine"));
   assert_true(has(text,
-                  "\nx,y,z,time,n,lowest,newest\n0.1250,0.1250,-0.4000,"
+                  "\nx,y,z,time,passes,lowest,newest\n0.1250,0.1250,-0.4000,"
                   "2001-09-09T01:47:40.25Z,2,-0.5000,-0.4000\n"));
 }
 
