@@ -12,6 +12,8 @@ namespace {
 
 /// Twice the area of a triangle that is none, seen from above, m^2.
 constexpr double kNoArea_m2 = 1e-12;
+/// So much of a triangle's height outside of it a centre is on its side, which the next one shares.
+constexpr double kOnSide = 1e-9;
 
 double cross(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double x_m, double y_m) {
   return (to.x() - from.x()) * (y_m - from.y()) - (to.y() - from.y()) * (x_m - from.x());
@@ -42,7 +44,7 @@ void over_cells(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
       const double of_a = cross(b, c, x_m, y_m) / area_m2;
       const double of_b = cross(c, a, x_m, y_m) / area_m2;
       const double of_c = cross(a, b, x_m, y_m) / area_m2;
-      if (of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0) {
+      if (std::min({of_a, of_b, of_c}) >= -kOnSide) {
         take({i, j}, of_a * a.z() + of_b * b.z() + of_c * c.z());
       }
     }

@@ -116,7 +116,7 @@ built::CellGrid read_logs(const AsBuiltCommand& options, const machines::AnyMach
         "{}: the edge went {:.1f} m, {:.1f} m of it at work, and over no cell of {} m; {}",
         options.logs.back(), head.way_m, head.worked_m, options.grid_m,
         head.worked_m > 0.0 ? "a smaller --grid has more"
-                                       : "with --ground every each place where it was counts"));
+                            : "with --ground every each place where it was counts"));
   }
   return grid;
 }

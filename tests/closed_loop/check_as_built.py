@@ -17,7 +17,7 @@ import tempfile
 import xml.etree.ElementTree as ElementTree
 
 FAR, NEAR, DEPTH = 6.2, 4.8, 0.4
-TASK = f'area = {{ kind = "trench", far = {FAR}, near = {NEAR}, depth = {DEPTH} }}\n'
+TASK = f'area = {{{{ kind = "trench", far = {FAR}, near = {NEAR}, depth = {DEPTH}, turn = {{turn}} }}}}\n'
 GRID = 0.05
 PART_S = 31.0  # Of a log: its first dig.
 NS = {"l": "http://www.landxml.org/schema/LandXML-1.2"}
@@ -79,9 +79,9 @@ def height_at(cells, x, y):
     return total / weight if weight >= 0.5 else None
 
 
-def is_the_true_ground(site, name, most_mm, *errors):
+def is_the_true_ground(site, name, most_mm, turn, *errors):
     """Ground that fell in afterwards, loose on what is firm, is left aside and counted."""
-    site.write("task.toml", TASK)
+    site.write("task.toml", TASK.format(turn=turn))
     site.good("autodig", "--task", "task.toml", "--soil", "loam", *errors, "--out", name, "--summary", f"{name}.json")
     said = site.as_built(f"{name}/autodig.log", "--points", f"{name}.csv", "--ascii", f"{name}.asc", "--grid", GRID,
                          out=f"{name}.xml")
@@ -303,8 +303,8 @@ def main():
     graben, = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         site = Site(graben, folder)
-        is_the_true_ground(site, "a", 10)
-        is_the_true_ground(site, "found", 25, "--errors", "all", "--seed", "2")
+        is_the_true_ground(site, "a", 10, 0.0)
+        is_the_true_ground(site, "found", 25, 0.6, "--errors", "all", "--seed", "2")
         reads_back(site, "found")
         against_a_design(site, "a")
         # Of what follows a part is enough.

@@ -111,7 +111,7 @@ std::string map_svg(const Map& map, const std::vector<Band>& bands, double block
   const double width_px = std::max(px * columns, metre_px) + 2.0;
   std::string svg = fmt::format(
       "<svg role=\"img\" aria-label=\"The ground seen from above, in colours\" viewBox=\"0 0 "
-      "{0:.1f} {1:.1f}\" style=\"width: {0:.0f}px; max-width: 100%\" "
+      "{0:.1f} {1:.1f}\" style=\"width: {0:.0f}px; max-width: 100%; background: var(--line)\" "
       "shape-rendering=\"crispEdges\">\n",
       width_px, px * rows + 24.0);
   // Neighbours of one colour are one rectangle.
@@ -160,8 +160,8 @@ std::string built_page(const BuiltGround& ground, const built::BuiltHead& head,
   std::string page = page_head("As built", head.project,
                                fmt::format("{}, {}", head.machine, built::utc_text(head.until_s)));
   page += section(design ? "Cut and fill" : "Heights",
-                  "From above, in the frame of the machine: x is up, y to the left. White places "
-                  "the edge has not touched.",
+                  "From above, in the frame of the machine: x is up, y to the left. Where it "
+                  "is grey the edge has not been at work.",
                   svg + legend(bands, used));
   page +=
       section("Figures", "", "<pre>" + html_escaped(table_text(ground, head, design)) + "</pre>");
