@@ -168,9 +168,10 @@ class Reader {
           "--any-machine it is taken for this one");
     }
     if (log_.known_s <= 0.0) {
-      refuse(fmt::format("nowhere is all known that says where the edge of {} is: {}", kind,
-                         is_dozer_ ? "its strokes and the body's pose"
-                                   : "its strokes or angles, and the swing where it has one"));
+      refuse(fmt::format(
+          "nowhere is all known that says, by this profile, where the edge of {} is: {}", kind,
+          is_dozer_ ? "its strokes and the body's pose"
+                    : "its strokes or angles, and the swing where it has one"));
     }
     if (log_.way_m < kLeastWay_m) {
       refuse(fmt::format("is without motion: the edge went {:.0f} mm", 1e3 * log_.way_m));

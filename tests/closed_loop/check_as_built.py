@@ -238,7 +238,7 @@ def bad_logs(site, log):
         line for line in lines if float(line[1:line.index(")")]) < 1.3 and "SwingState" not in line)))
     site.refused("no frame says which profile", site.write("nobody.log", "".join(
         line for line in lines if "18FF3482#" not in line and "0CFF2880#" not in line)))
-    site.refused("nowhere is all known that says where the edge of an excavator is: its strokes", site.write(
+    site.refused("nowhere is all known that says, by this profile, where the edge of an excavator is: its strokes", site.write(
         "blind.log", "".join(line for line in lines if "0CFF2180#" not in line)))
     site.refused("nothing in it says when the edge was at the ground", site.write("deaf.log", "".join(
         line for line in lines if "18FF3A82#" not in line)))
