@@ -19,9 +19,10 @@ bool is_felt(const EdgePlace& place, double way) {
 
 bool is_strong(const EdgePlace& place, double way) {
   const double width_m = (place.left_m - place.right_m).norm();
+  const double least_npm = way > 0.0 ? kStrongOutwards_npm : kStrong_npm;
   return place.deviation_n > 0.0 &&
          holds_n(place, way) >
-             std::max(kStrong_npm * width_m, kStrong_deviations * place.deviation_n);
+             std::max(least_npm * width_m, kStrong_deviations * place.deviation_n);
 }
 
 /// For as long as kStrong_s in one go.

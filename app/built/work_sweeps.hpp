@@ -24,9 +24,11 @@ struct EdgeStep {
   double time_s = 0.0;  ///< Of `to`, as the log has it.
 };
 
-/// That much for each metre of the edge, N/m, and so many deviations: three times what was told
-/// in the air of machines as found.
+/// That much for each metre of the edge, N/m, inwards: more than was told in the air of machines as
+/// found. Outwards a bucket is opened: a load that pours out showed up to 6 kN/m level.
 inline constexpr double kStrong_npm = 5e3;
+inline constexpr double kStrongOutwards_npm = 1e4;
+/// And so many deviations.
 inline constexpr double kStrong_deviations = 2.0;
 inline constexpr double kStrong_s = 0.15;  ///< Two frames.
 /// Felt at all.

@@ -60,8 +60,11 @@ TEST(a_sweep_is_work_from_the_first_to_the_last_moment_that_ground_is_felt) {
 /// It holds the edge back, whichever way that goes; pushed on, nothing is cut.
 TEST(the_force_is_against_the_way) {
   std::vector<built::EdgeStep> outwards;
-  sweep(1.0, 0.0, ground(-9e3, 0.25, -2e3), 1e3, outwards);
+  sweep(1.0, 0.0, ground(-11e3, 0.25, -2e3), 1e3, outwards);
   assert_int_equal(worked_s(outwards).size(), 51);
+  std::vector<built::EdgeStep> poured;
+  sweep(1.0, 0.0, ground(-9e3, 0.25, -2e3), 1e3, poured);
+  assert_true(worked_s(poured).empty());
   std::vector<built::EdgeStep> pushed;
   sweep(1.0, 0.0, ground(9e3, 0.25, 2e3), 1e3, pushed);
   assert_true(worked_s(pushed).empty());
