@@ -250,7 +250,7 @@ void add_as_built(CLI::App& app, int& status) {
                     "Take a log whose machine says another profile, or none");
   add_examples(*command,
                {"as-built --log day.log --profile excavator_12t --out asbuilt.xml",
-                "as-built --log day.log --profile mine.toml --design site.xml --out a.xml"});
+                "as-built --log day.log --profile my.toml --design site.xml --out a.xml"});
   command->callback(
       [options, &status] { status = guarded("as-built", [&] { as_built(*options); }); });
 }
