@@ -43,6 +43,7 @@ std::vector<std::string> drive_names() {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     names.emplace_back(commission::axis_name(axis));
   }
+  names.emplace_back(commission::axis_name(kSwing));
   return names;
 }
 
@@ -89,8 +90,8 @@ void commission_in_memory(const CommissionCommand& options) {
   fmt::print("{:<49} {:<11} {:>6} {:>6} {:>9}\n", "tried", "ended as", "took", "duty", "speed");
   for (std::size_t at = 0; at < result.steps.size(); ++at) {
     const commission::StepResult& step = result.steps[at];
-    fmt::print("{:<49} {:<11} {:>4.1f} s {:>4.0f} % {:>4.0f} mm/s\n", step_text(steps[at]),
-               end_text(step.end), step.took_s, 100.0 * step.duty, 1e3 * step.speed_mps);
+    fmt::print("{:<49} {:<11} {:>4.1f} s {:>4.0f} % {:>9}\n", step_text(steps[at]),
+               end_text(step.end), step.took_s, 100.0 * step.duty, speed_text(steps[at], step));
   }
   fmt::print(
       "(took: with the way to its start; duty, speed: the largest that was tried, that came of "
@@ -100,15 +101,16 @@ void commission_in_memory(const CommissionCommand& options) {
     throw std::runtime_error(
         fmt::format("stopped at \"{}\": {}", step_text(steps[result.step]), stop_text(result)));
   }
-  fmt::print("{}{}", left_out_text(options.choice), next_text(options));
+  fmt::print("{}{}", left_out_text(options.choice, run.sequence), next_text(options));
 }
 
 /// What is tried, of both kinds of run.
 void add_choice(CLI::App& command, CommissionCommand& options, std::vector<CLI::Option*>& added) {
   SequenceChoice& choice = options.choice;
-  added.push_back(command.add_option("--only", choice.only, "Drives to try, instead of all")
-                      ->check(one_of(drive_names()))
-                      ->delimiter(','));
+  added.push_back(
+      command.add_option("--only", choice.only, "Drives to try, the swing too, instead of all")
+          ->check(one_of(drive_names()))
+          ->delimiter(','));
   added.push_back(
       command.add_option("--no-touch", choice.no_touch, "Ends of strokes that are not touched")
           ->check(one_of(end_names()))
@@ -166,10 +168,12 @@ void add_commission(CLI::App& app, int& status) {
   command->add_option("--log", options->log, "candump log to write")->capture_default_str();
   command->add_flag("--force", options->force, "--log of a simulation may be there already")
       ->excludes(can);
-  command->add_option("--windows", options->windows,
-                      "TOML file with a table for each drive: least, most (m), speed (m/s), "
-                      "retracted_end_free, extended_end_free. Without it: asked for on a terminal, "
-                      "the whole strokes in a simulation");
+  command->add_option(
+      "--windows", options->windows,
+      "TOML file with a table for each drive: least, most (m), speed (m/s), "
+      "retracted_end_free, extended_end_free; for the swing right, left (rad), speed (rad/s), "
+      "without which it is left out. Without it: asked for on a terminal, "
+      "the whole strokes, 30 deg to each side, in a simulation");
   std::vector<CLI::Option*> choices;
   add_choice(*command, *options, choices);
   add_bus_options(*command, *options, *can, choices);

@@ -91,7 +91,8 @@ commission::Progress begun(const BusCommission& options,
   return progress;
 }
 
-void say_result(const BusCommission& options, const operate::LiveResult& result) {
+void say_result(const BusCommission& options, const commission::SequenceOptions& planned,
+                const operate::LiveResult& result) {
   const std::string resume =
       fmt::format("graben commission --can {} --profile {} --log {} --resume", options.interface,
                   shell_word(options.profile), shell_word(options.log));
@@ -101,13 +102,19 @@ void say_result(const BusCommission& options, const operate::LiveResult& result)
     throw std::runtime_error(fmt::format(
         "{}. Go on with: {}", result.words.empty() ? "told to end" : result.words, resume));
   }
-  fmt::print("{}{}", left_out_text(options.choice), next_text(options));
+  fmt::print("{}{}", left_out_text(options.choice, planned), next_text(options));
 }
 
 }  // namespace
 
-std::string left_out_text(const SequenceChoice& choice) {
+std::string left_out_text(const SequenceChoice& choice,
+                          const commission::SequenceOptions& options) {
   std::vector<std::string> out;
+  if (options.has_swing && !options.swing) {
+    const bool by_choice = !choice.only.empty() && !has(choice.only, "swing");
+    out.emplace_back(by_choice ? "all of the swing"
+                               : "all of the swing, of which nobody has confirmed a sector");
+  }
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const std::string name = commission::axis_name(axis);
     if (!choice.only.empty() && !has(choice.only, name)) {
@@ -124,8 +131,10 @@ std::string left_out_text(const SequenceChoice& choice) {
       out.emplace_back(words);
     }
   }
-  return out.empty() ? ""
-                     : fmt::format("left out, and so not identified: {}\n", fmt::join(out, ", "));
+  const std::string none = options.has_swing ? "" : "no swing: the profile has none\n";
+  return none + (out.empty()
+                     ? ""
+                     : fmt::format("left out, and so not identified: {}\n", fmt::join(out, ", ")));
 }
 
 std::string next_text(const BusCommission& options) {
@@ -149,6 +158,11 @@ void choose(const SequenceChoice& choice, commission::SequenceOptions& options) 
     options.drives[static_cast<unsigned>(axis)] =
         choice.only.empty() || has(choice.only, commission::axis_name(axis));
   }
+  const bool told = has(choice.only, "swing");
+  if (told && !options.has_swing) {
+    throw std::runtime_error("--only swing: the profile has no swing");
+  }
+  options.swing = options.has_swing && (choice.only.empty() || told);
   options.steps = !choice.no_steps;
   options.bursts = !choice.no_bursts;
   options.pairs = !choice.no_pairs;
@@ -170,6 +184,10 @@ void commission_on_bus(const BusCommission& options) {
       fmt::print("{}\n", commission::window_text(progress.options, axis));
     }
   }
+  if (progress.options.swing) {
+    fmt::print("{}\n", commission::sector_text(progress.options.sector));
+  }
+  fmt::print("{}", left_out_text(options.choice, progress.options));
   fmt::print("{} steps, {} of them done. Nobody within reach? Then hold the deadman\n",
              commission::planned_steps(progress.options).size(), progress.results.size());
   std::fflush(stdout);
@@ -180,7 +198,7 @@ void commission_on_bus(const BusCommission& options) {
   live.silent_after_us = static_cast<TimeUs>(options.silent_after_s * 1e6);
   live.log = options.log;
   live.progress = progress;
-  say_result(options, operate::run_live_commission(live));
+  say_result(options, progress.options, operate::run_live_commission(live));
 }
 
 }  // namespace graben::cli

@@ -34,8 +34,10 @@ void choose(const SequenceChoice& choice, commission::SequenceOptions& options);
 /// The part of it that goes before what windows say.
 void leave_touches(const SequenceChoice& choice, commission::SequenceOptions& options);
 
-/// What the choice keeps from being tried, as a line; empty: nothing.
-[[nodiscard]] std::string left_out_text(const SequenceChoice& choice);
+/// What the choice, or that nobody has confirmed it, keeps from being tried, and that there is no
+/// swing to be tried, as lines; empty: nothing.
+[[nodiscard]] std::string left_out_text(const SequenceChoice& choice,
+                                        const commission::SequenceOptions& options);
 
 /// The command that makes a profile of the log, as a line.
 [[nodiscard]] std::string next_text(const BusCommission& options);

@@ -39,6 +39,24 @@ void read_drive(const json& drive, unsigned k, SequenceOptions& options) {
   }
 }
 
+json swing_json(const SequenceOptions& options) {
+  return {{"tried", options.swing},
+          {"right_rad", options.sector.right_rad},
+          {"left_rad", options.sector.left_rad},
+          {"most_radps", options.sector.most_radps}};
+}
+
+/// A progress from before the swing was led has none.
+void read_swing(const json& drives, SequenceOptions& options) {
+  const char* const name = axis_name(kSwing);
+  options.swing = options.has_swing && drives.contains(name) && drives.at(name).at("tried");
+  if (options.swing) {
+    const json& swing = drives.at(name);
+    options.sector = {swing.at("right_rad"), swing.at("left_rad"), swing.at("most_radps")};
+    require_possible(options.sector);
+  }
+}
+
 json steps_json(const Progress& progress) {
   const std::vector<SequenceStep> plan = planned_steps(progress.options);
   json steps = json::array();
@@ -54,7 +72,8 @@ json steps_json(const Progress& progress) {
 }
 
 StepEnd read_end(const std::string& text) {
-  for (const StepEnd end : {StepEnd::kDone, StepEnd::kAtWindow, StepEnd::kNoMotion}) {
+  for (const StepEnd end : {StepEnd::kDone, StepEnd::kAtWindow, StepEnd::kNoMotion,
+                            StepEnd::kOutside, StepEnd::kNoTime}) {
     if (text == end_text(end)) {
       return end;
     }
@@ -98,6 +117,9 @@ void write_progress(const fs::path& file, const Progress& progress) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     root["drives"][axis_name(axis)] = drive_json(progress.options, static_cast<unsigned>(axis));
   }
+  if (progress.options.has_swing) {
+    root["drives"][axis_name(kSwing)] = swing_json(progress.options);
+  }
   const fs::path part = file.string() + ".part";
   std::ofstream stream(part);
   stream << root.dump(1) << '\n';
@@ -127,6 +149,7 @@ Progress read_progress(const fs::path& file, std::uint32_t profile_hash,
       read_drive(root.at("drives").at(axis_name(axis)), static_cast<unsigned>(axis),
                  progress.options);
     }
+    read_swing(root.at("drives"), progress.options);
     read_steps(root.at("steps"), progress);
   } catch (const json::exception&) {
     throw std::runtime_error(fmt::format(
@@ -144,6 +167,14 @@ Progress read_progress(const fs::path& file, std::uint32_t profile_hash,
 }
 
 void require_same_windows(const SequenceOptions& before, const SequenceOptions& now) {
+  const auto differs = [](double one, double other) { return std::abs(one - other) >= kSame; };
+  if (before.swing && (!now.swing || differs(before.sector.right_rad, now.sector.right_rad) ||
+                       differs(before.sector.left_rad, now.sector.left_rad) ||
+                       differs(before.sector.most_radps, now.sector.most_radps))) {
+    throw std::runtime_error(fmt::format("begun with another sector ({}), now {}; begin newly",
+                                         sector_text(before.sector),
+                                         now.swing ? sector_text(now.sector) : "none"));
+  }
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const auto k = static_cast<unsigned>(axis);
     if (before.drives[k] && !are_same(before, now, k)) {

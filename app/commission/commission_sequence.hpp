@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/commission/commission_plan.hpp"
+#include "app/commission/swing_lead.hpp"
 #include "app/commission/wrong_way.hpp"
 
 namespace graben::commission {
@@ -17,7 +18,9 @@ namespace graben::commission {
 struct SequenceInput {
   std::array<double, kAxisCount> stroke_m{};    ///< Measured.
   std::array<double, kAxisCount> sent_ratio{};  ///< Duties as the controller sent them last.
-  bool active = false;  ///< The controller moves the machine, and the operator has not let go.
+  bool active = false;     ///< The controller moves the machine, and the operator has not let go.
+  double swing_rad = 0.0;  ///< Measured.
+  double swing_sent_ratio = 0.0;  ///< Its duty, as the others.
 };
 
 class CommissionSequence {
@@ -32,6 +35,8 @@ class CommissionSequence {
   void step(double time_s, const SequenceInput& seen);
 
   [[nodiscard]] const std::array<double, kAxisCount>& duty() const { return duty_; }
+  /// The swing's, which its lever has to say.
+  [[nodiscard]] double swing_duty() const { return swing_duty_; }
   [[nodiscard]] bool is_done() const { return at_ >= steps_.size(); }
   /// Set once a ramp has moved something the wrong way: duties are 0 from then on.
   [[nodiscard]] const std::optional<WrongWay>& wrong() const { return wrong_; }
@@ -53,6 +58,12 @@ class CommissionSequence {
   void run_step();
   void run_burst();
   void run_touch();
+  void run_fold();
+  void lead_swing(const SequenceInput& seen);
+  /// The step is one of the swing itself.
+  [[nodiscard]] bool is_swings() const {
+    return !is_done() && steps_[at_].axis == kSwing && steps_[at_].kind != StepKind::kFold;
+  }
   void finish(StepEnd end);
   void keep_result();
   bool approach(int axis, double target_m);
@@ -78,8 +89,12 @@ class CommissionSequence {
   void remember(int axis, int sign, double duty, double speed_mps);
   [[nodiscard]] double level_for(int axis, int sign, double speed_mps) const;
   [[nodiscard]] bool all_stand() const;
+  [[nodiscard]] double travel_mps() const;
+  [[nodiscard]] double folded_m(int axis) const;
 
   SequenceOptions options_;
+  SwingLead swing_;
+  double swing_duty_ = 0.0;
   std::vector<SequenceStep> steps_;
   std::vector<StepResult> results_;
   std::size_t at_ = 0;
@@ -87,6 +102,7 @@ class CommissionSequence {
   double time_s_ = 0.0;
   double phase_begin_s_ = 0.0;
   double active_s_ = 0.0;
+  double spent_s_ = 0.0;  ///< By the steps that are done, of earlier runs too.
   bool was_active_ = false;
   std::array<double, kAxisCount> duty_{};
   std::array<double, kAxisCount> stroke_m_{};

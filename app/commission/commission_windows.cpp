@@ -28,6 +28,36 @@ std::string possible_text(double stroke_m) {
                      kLeastLength_m);
 }
 
+constexpr double kDegree_rad = M_PI / 180.0;
+constexpr double kMostSector_rad = 3.0;
+/// Each side: less is no room to come to a speed and to stop.
+constexpr double kLeastSector_rad = 0.6;
+constexpr double kLeast_radps = 0.1;
+constexpr double kMost_radps = 1.5;
+
+bool is_possible(const Sector& sector) {
+  return sector.right_rad >= -kMostSector_rad && sector.left_rad <= kMostSector_rad &&
+         sector.left_rad - sector.right_rad >= kLeastSector_rad &&
+         sector.most_radps >= kLeast_radps && sector.most_radps <= kMost_radps;
+}
+
+std::string possible_sector() {
+  return fmt::format("allowed: within {} .. {} rad, at least {} rad wide", -kMostSector_rad,
+                     kMostSector_rad, kLeastSector_rad);
+}
+
+void read_sector(machines::TomlReader& reader, Sector& sector) {
+  const machines::Range angle{-kMostSector_rad, kMostSector_rad, "rad"};
+  sector.right_rad = reader.number("swing.right", angle, "farthest to the right");
+  sector.left_rad = reader.number("swing.left", angle, "farthest to the left");
+  sector.most_radps =
+      reader.number("swing.speed", {kLeast_radps, kMost_radps, "rad/s"}, "largest speed");
+  if (reader.is_sound() && !is_possible(sector)) {
+    reader.fail("swing", fmt::format("from {:.3f} to {:.3f} rad; {}", sector.right_rad,
+                                     sector.left_rad, possible_sector()));
+  }
+}
+
 void put(const DriveAnswer& answer, unsigned k, SequenceOptions& options) {
   options.window[k] = answer.window;
   options.touch_retracted[k] = answer.retracted_end_free;
@@ -129,7 +159,47 @@ bool ask_drive(const Ask& ask, int axis, double stroke_m, DriveAnswer& answer) {
   }
 }
 
+bool ask_sector(const Ask& ask, Sector& sector) {
+  const Sector proposed = sector;
+  for (std::string why;;) {
+    sector = proposed;
+    double right_deg = sector.right_rad / kDegree_rad;
+    double left_deg = sector.left_rad / kDegree_rad;
+    const auto said = ask(
+        fmt::format("{}swing: sector, deg: RIGHT LEFT [{:.0f} {:.0f}] ", why, right_deg, left_deg));
+    const auto speed =
+        said ? ask(fmt::format("swing: largest speed, rad/s [{:.2f}] ", sector.most_radps))
+             : std::nullopt;
+    if (!speed) {
+      return false;
+    }
+    const bool read = (said->empty() || read_numbers(*said, {&right_deg, &left_deg})) &&
+                      (speed->empty() || read_numbers(*speed, {&sector.most_radps}));
+    sector.right_rad = right_deg * kDegree_rad;
+    sector.left_rad = left_deg * kDegree_rad;
+    if (read && is_possible(sector)) {
+      return true;
+    }
+    why = fmt::format("This cannot be; {}, {} .. {} rad/s\n", possible_sector(), kLeast_radps,
+                      kMost_radps);
+  }
+}
+
 }  // namespace
+
+void require_possible(const Sector& sector) {
+  if (!is_possible(sector)) {
+    throw std::runtime_error(fmt::format("swing: from {:g} to {:g} rad at {:g} rad/s; {}",
+                                         sector.right_rad, sector.left_rad, sector.most_radps,
+                                         possible_sector()));
+  }
+}
+
+std::string sector_text(const Sector& sector) {
+  return fmt::format("swing: from {:.0f} deg (right) to {:.0f} deg (left), at most {:.2f} rad/s",
+                     sector.right_rad / kDegree_rad, sector.left_rad / kDegree_rad,
+                     sector.most_radps);
+}
 
 void require_possible(const Window& window, double stroke_m, const std::string& name) {
   if (!is_possible(window, stroke_m)) {
@@ -153,6 +223,12 @@ void read_windows(const std::filesystem::path& file, SequenceOptions& options) {
       put(read_drive(reader, name, options.stroke_m[k]), k, options);
     }
   }
+  // Nobody has confirmed where it may turn.
+  const bool said = options.has_swing && document.root.contains("swing");
+  options.swing = options.swing && said;
+  if (said) {
+    read_sector(reader, options.sector);
+  }
   reader.refuse_unknown_keys();
   machines::throw_errors(document, reader);
 }
@@ -168,7 +244,7 @@ bool ask_windows(const Ask& ask, SequenceOptions& options) {
       put(answer, k, options);
     }
   }
-  return true;
+  return !options.swing || ask_sector(ask, options.sector);
 }
 
 std::string window_text(const SequenceOptions& options, int axis) {

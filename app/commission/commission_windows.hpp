@@ -25,7 +25,8 @@ struct DriveAnswer {
 /// Reads and checks windows of the drives that `options` has: a table for each, [boom], [arm],
 /// [bucket], with `least`, `most` (m; left out where that end is free), `speed` (m/s), and, false
 /// unless told, `retracted_end_free`, `extended_end_free`. Sets them in `options`. Throws
-/// machines::ProfileError with every error found.
+/// machines::ProfileError with every error found. A table [swing] has `right`, `left` (rad) and
+/// `speed` (rad/s); without it the swing is not tried, for nobody has confirmed where it may turn.
 void read_windows(const std::filesystem::path& file, SequenceOptions& options);
 
 /// Asks for a line with these words; nothing at the end of the answers.
@@ -37,6 +38,12 @@ using Ask = std::function<std::optional<std::string>(const std::string&)>;
 
 /// Throws std::runtime_error unless the window is one that may be confirmed for this stroke.
 void require_possible(const Window& window, double stroke_m, const std::string& name);
+
+/// Throws std::runtime_error unless the sector is one that may be confirmed.
+void require_possible(const Sector& sector);
+
+/// "swing: 30 deg to the right to 30 deg to the left, at most 0.50 rad/s".
+[[nodiscard]] std::string sector_text(const Sector& sector);
 
 /// "boom: 0.070 to 1.330 of 1.400 m, at most 0.50 m/s, its ends are not touched".
 [[nodiscard]] std::string window_text(const SequenceOptions& options, int axis);

@@ -46,7 +46,10 @@ bool CommissionStation::hears_strokes(const EcuListener& ecu, TimeUs now) {
   for (std::size_t k = 0; k < strokes_m.size(); ++k) {
     stroke_m_[k] = strokes_m[k].value_or(stroke_m_[k]);
   }
-  return std::all_of(strokes_m.begin(), strokes_m.end(),
+  const auto swing_rad = ecu.swing_rad(now);
+  swing_rad_ = swing_rad.value_or(swing_rad_);
+  return (swing_rad || !setup_.sequence.swing) &&
+         std::all_of(strokes_m.begin(), strokes_m.end(),
                      [](const auto& stroke_m) { return stroke_m.has_value(); });
 }
 
@@ -87,7 +90,8 @@ void CommissionStation::step(const Hands& hands, Trouble around, const EcuListen
   const auto mode = ecu.mode(now);
   const bool heard = hears_strokes(ecu, now) && !is_held(ecu);
   moving_ = on && end_ == CommissionEnd::kNone && mode == EcuMode::kActive && heard;
-  sequence_.step(static_cast<double>(now) * 1e-6, {stroke_m_, ecu.sent_ratio(), moving_});
+  sequence_.step(static_cast<double>(now) * 1e-6,
+                 {stroke_m_, ecu.sent_ratio(), moving_, swing_rad_, ecu.swing_sent_ratio()});
   if (end_ == CommissionEnd::kNone) {
     look_for_end(ecu, now);
   }
@@ -97,6 +101,7 @@ void CommissionStation::step(const Hands& hands, Trouble around, const EcuListen
   request_.enable = goes_on;
   request_.mode = OperatorMode::kAutomatic;
   request_.task = goes_on && is_armed(mode) ? Task::kCommission : Task::kNone;
+  request_.axes.swing_ratio = goes_on ? sequence_.swing_duty() : 0.0;
   request_.speed_override_ratio = 1.0;
   tried_.duty_ratio = {};
   if (goes_on) {
@@ -134,9 +139,9 @@ std::string commission_line(const CommissionStation& station, const EcuListener&
 
 std::string result_line(const commission::CommissionSequence& sequence, std::size_t at) {
   const commission::StepResult& result = sequence.results()[at];
-  return fmt::format("{}: {}, duty {:.1f} %, {:.0f} mm/s",
-                     commission::step_text(sequence.steps()[at]), commission::end_text(result.end),
-                     100.0 * result.duty, 1e3 * result.speed_mps);
+  return fmt::format("{}: {}, duty {:.1f} %, {}", commission::step_text(sequence.steps()[at]),
+                     commission::end_text(result.end), 100.0 * result.duty,
+                     commission::speed_text(sequence.steps()[at], result));
 }
 
 }  // namespace graben::operate

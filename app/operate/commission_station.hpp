@@ -31,11 +31,11 @@ struct CommissionSetup {
   TimeUs silent_after_us = 20 * kSecondUs;  ///< As StationOptions; a still hand holds for minutes.
 };
 
-/// Enable is given while the deadman counts; then, once the controller is armed, task Commission.
-/// Duties are tried only while the controller is active, every stroke is heard, and no window that
-/// has not reached the controller keeps it from trying them: what was interrupted begins again.
-/// Ends when all is done, when the controller stops by a fault after it was armed, or when a stroke
-/// goes the wrong way; from then on nothing is asked for.
+/// Enable is given while the deadman counts; then, once the controller is armed, task Commission,
+/// of the swing Jog. Duties are tried only while the controller is active, every stroke is heard,
+/// and no window that has not reached the controller keeps it from trying them: what was
+/// interrupted begins again. Ends when all is done, when the controller stops by a fault after it
+/// was armed, or when a stroke goes the wrong way; from then on nothing is asked for.
 class CommissionStation {
  public:
   static constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
@@ -65,6 +65,7 @@ class CommissionStation {
   Request request_;
   TriedDuties tried_;
   std::array<double, kAxisCount> stroke_m_{};
+  double swing_rad_ = 0.0;
   bool moving_ = false;
   double held_s_ = 0.0;     ///< For so long in a row the controller has held the drive back.
   bool was_armed_ = false;  ///< Since the deadman was pressed last.

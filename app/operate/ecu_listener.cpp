@@ -76,10 +76,22 @@ void EcuListener::hear(const CanFrame& frame, TimeUs now) {
   take(frame, now, tip_load_);
   take(frame, now, checks_);
   take(frame, now, spools_);
+  take(frame, now, swing_spool_);
+  take_stroke(frame, &Dbc::SwingState::swing_angle_rad, now, swing_);
   take_stroke(frame, &Dbc::BoomStroke::boom_stroke_m, now, strokes_[0]);
   take_stroke(frame, &Dbc::ArmStroke::arm_stroke_m, now, strokes_[1]);
   take_stroke(frame, &Dbc::BucketStroke::bucket_stroke_m, now, strokes_[2]);
   take_trouble(frame, now);
+}
+
+std::optional<double> EcuListener::swing_rad(TimeUs now) const {
+  const bool heard =
+      swing_.value.state == dbc::RawState::kValid && now - swing_.at_us < kStrokeTimeout_us;
+  return heard ? std::optional(swing_.value.value) : std::nullopt;
+}
+
+double EcuListener::swing_sent_ratio() const {
+  return swing_spool_.said ? swing_spool_.said->swing_duty_ratio.value : 0.0;
 }
 
 std::array<std::optional<double>, 3> EcuListener::strokes_m(TimeUs now) const {

@@ -50,6 +50,9 @@ class EcuListener {
   [[nodiscard]] std::array<std::optional<double>, 3> strokes_m(TimeUs now) const;
   /// Duties of boom, arm and bucket as the controller sent them last; 0 before.
   [[nodiscard]] std::array<double, 3> sent_ratio() const;
+  /// Angle of the swing, rad, and its duty; the angle is empty as the strokes are.
+  [[nodiscard]] std::optional<double> swing_rad(TimeUs now) const;
+  [[nodiscard]] double swing_sent_ratio() const;
   /// What DM1 says besides.
   [[nodiscard]] std::vector<Fault> faults(TimeUs now) const;
 
@@ -85,7 +88,9 @@ class EcuListener {
   Heard<Dbc::EcuTipLoad> tip_load_;
   Heard<Dbc::EcuChecks> checks_;
   Heard<Dbc::SpoolCommand> spools_;
+  Heard<Dbc::SwingCommand> swing_spool_;
   std::array<Stroke, 3> strokes_;
+  Stroke swing_;
   j1939::BamReceiver troubles_{j1939::kActiveCodesPgn, kOwnAddress};  ///< DM1 of several codes.
   std::map<std::uint32_t, TimeUs> trouble_us_;  ///< SPN -> when it was said last.
   std::optional<std::uint8_t> other_station_;

@@ -33,6 +33,11 @@ class Ear {
         const auto spools = bus::SpoolCommand::decode(frame.data);
         sent_ratio = {spools.boom_duty_ratio.value, spools.arm_duty_ratio.value,
                       spools.bucket_duty_ratio.value};
+      } else if (same_message(frame.id, bus::SwingState::kId)) {
+        const auto angle = bus::SwingState::decode(frame.data).swing_angle_rad;
+        swing_rad = angle.state == dbc::RawState::kValid ? angle.value : swing_rad;
+      } else if (same_message(frame.id, bus::SwingCommand::kId)) {
+        swing_sent_ratio = bus::SwingCommand::decode(frame.data).swing_duty_ratio.value;
       } else if (same_message(frame.id, bus::EcuStatus::kId)) {
         mode = bus::EcuStatus::decode(frame.data).mode.value;
       }
@@ -41,6 +46,8 @@ class Ear {
 
   std::array<double, kAxisCount> strokes_m{};
   std::array<double, kAxisCount> sent_ratio{};
+  double swing_rad = 0.0;
+  double swing_sent_ratio = 0.0;
   bus::EcuStatus::Mode mode = bus::EcuStatus::Mode::kSilent;
 
  private:
@@ -102,8 +109,10 @@ CommissionResult run_commission(const machines::SimulatedExcavator& machine,
   for (; !sequence.is_done(); now_us += ExcavatorRig::kPeriod_us) {
     ear.listen();
     sequence.step(seconds(now_us),
-                  {ear.strokes_m, ear.sent_ratio, ear.mode == bus::EcuStatus::Mode::kActive});
+                  {ear.strokes_m, ear.sent_ratio, ear.mode == bus::EcuStatus::Mode::kActive,
+                   ear.swing_rad, ear.swing_sent_ratio});
     hands.tried_ratio = sequence.duty();
+    hands.lever_ratio[kSwing] = sequence.swing_duty();
     rig.driver.set_hands(hands);
     static_cast<void>(rig.step(now_us));
     const ExcavatorStatus& status = rig.ecu->outputs().status;

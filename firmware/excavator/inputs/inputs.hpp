@@ -39,11 +39,12 @@ struct InputState {
 
 /// Guards duties that are tried while a machine is commissioned, on valves of which nothing is
 /// known, and gives those that may be sent in `state.tried_ratio`; what holds them back is in
-/// `state.commission`. What a drive does wrong stops, where nothing else does.
+/// `state.commission`. What a drive does wrong stops, where nothing else does. The swing's duty is
+/// what its lever says, its window its own range at its fastest.
 void guard_tried_duties(DriveRows drives, const Cycle& cycle, const LastCommands<kDriveCount>& last,
                         ExcavatorValid& valid, InputState& state);
 
-/// Of the first cylinder that its window holds back.
+/// Of the first drive that its window holds back.
 [[nodiscard]] Limit tried_limit(DriveRows drives,
                                 const std::array<CommissionState, kDriveCount>& commission);
 

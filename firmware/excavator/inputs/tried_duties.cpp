@@ -22,6 +22,8 @@ void guard_tried_duties(DriveRows drives, const Cycle& cycle, const LastCommands
                    valid.external.speed_ratio >= 1.0;
   const auto& sent = last.duty_ratio;
   const auto driven = kDriveCount - std::count(sent.begin(), sent.end(), 0.0);
+  const auto& tried = valid.tried_ratio;
+  const bool links_rest = std::count(tried.begin(), tried.end(), 0.0) == kAxisCount;
   FaultSet stops;
   for (int i = 0; i < drives.count(); ++i) {
     const auto k = static_cast<unsigned>(i);
@@ -31,6 +33,11 @@ void guard_tried_duties(DriveRows drives, const Cycle& cycle, const LastCommands
     if (tries && i < kAxisCount) {
       ask.wanted_ratio = may ? valid.tried_ratio[k] : 0.0;
       ask.window = valid.window[k];
+    } else if (tries) {
+      // The swing's lever says its duty, while no other is tried. Its window is its own range: what
+      // sector of that it may turn in is kept by who leads it.
+      ask.wanted_ratio = may && links_rest ? valid.lever_ratio[k] : 0.0;
+      ask.window = {drives[i].least_travel_m, drives[i].most_travel_m, drives[i].watch.fastest_mps};
     }
     const CommissionResult result =
         next_commission(drives[i], ask, valid.drive[k], cycle.elapsed_s, state.commission[k]);
@@ -43,7 +50,7 @@ void guard_tried_duties(DriveRows drives, const Cycle& cycle, const LastCommands
 }
 
 Limit tried_limit(DriveRows drives, const std::array<CommissionState, kDriveCount>& commission) {
-  for (int i = 0; i < kAxisCount; ++i) {
+  for (int i = 0; i < drives.count(); ++i) {
     if (commission[static_cast<unsigned>(i)].held_side != 0) {
       return drives[i].control.at_end;
     }

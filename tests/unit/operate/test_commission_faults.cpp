@@ -344,3 +344,49 @@ TEST(the_operator_lets_go_in_every_step) {
   assert_near(results[0].duty, sound[0].duty, 0.06);
   assert_near(results[1].duty, sound[1].duty, 0.06);
 }
+
+/// By the station: both sides, within the sector; let go in the middle it is neutral, and goes on.
+TEST(the_swing_is_led_and_let_go) {
+  SequenceOptions options = test::one_drive(test::excavator_12t(), -1);
+  options.sector = {-0.4, 0.35, 0.5};
+  CommissionBench bench(test::excavator_12t(), options);
+  bench.hands.deadman = true;
+  const auto turned_rad = [&] { return bench.plant.plant().swing_rad(); };
+  assert_true(bench.run_until([&] { return turned_rad() > 0.01; }, 30.0));
+  bench.hands.deadman = false;
+  bench.run(0.1);
+  assert_true(bench.neutral());
+  bench.run(1.0);
+  assert_int_equal(bench.station->end(), CommissionEnd::kNone);
+  bench.hands.deadman = true;
+  double least_rad = 0.0;
+  double most_rad = 0.0;
+  assert_true(bench.run_until(
+      [&] {
+        least_rad = std::min(least_rad, turned_rad());
+        most_rad = std::max(most_rad, turned_rad());
+        return bench.station->end() != CommissionEnd::kNone;
+      },
+      60.0));
+  assert_int_equal(bench.station->end(), CommissionEnd::kDone);
+  assert_true(least_rad > options.sector.right_rad && most_rad < options.sector.left_rad);
+  const Results& results = bench.station->sequence().results();
+  assert_int_equal(results.size(), 3);  // Of the links no edge is known: they stay.
+  for (const std::size_t at : {1U, 2U}) {
+    assert_int_equal(results[at].end, commission::StepEnd::kDone);
+    assert_true(results[at].duty > 0.2 && results[at].duty < 0.4);
+  }
+}
+
+/// Outside its sector it is not tried.
+TEST(a_swing_outside_its_sector_stays) {
+  SequenceOptions options = test::one_drive(test::excavator_12t(), -1);
+  options.sector = {0.3, 0.95, 0.5};
+  CommissionBench bench(test::excavator_12t(), options);
+  bench.hands.deadman = true;
+  expect_done(bench);
+  for (const std::size_t at : {1U, 2U}) {
+    assert_int_equal(bench.station->sequence().results()[at].end, commission::StepEnd::kOutside);
+  }
+  assert_near(bench.plant.plant().swing_rad(), 0.0, 1e-3);
+}

@@ -68,6 +68,51 @@ TEST(windows_of_a_file) {
   assert_true(says(bad("[boom]\nleast = 0.1\nmost = 1.0\nspeed = 0.3\n"), "arm.least"));
 }
 
+SequenceOptions whole_12t() { return whole_sequence(test::excavator_12t().profile); }
+
+/// Nobody turns a platform of which no sector was confirmed.
+TEST(a_swing_is_tried_where_its_sector_is_confirmed) {
+  const Folder folder;
+  assert_false(whole().swing || whole().has_swing);
+  SequenceOptions options = whole_12t();
+  assert_true(options.swing);
+  assert_near(options.sector.left_rad, 30.0 * M_PI / 180.0, 1e-9);
+  options.drives = {false, false, false};
+  read_windows(folder.file("[swing]\nright = -0.3\nleft = 0.4\nspeed = 0.5\n"), options);
+  assert_true(options.swing);
+  assert_near(options.sector.right_rad, -0.3, 1e-12);
+  assert_near(options.sector.most_radps, 0.5, 1e-12);
+  const auto bad = [&](const char* text) {
+    return refusal([&] { read_windows(folder.file(text), options); });
+  };
+  assert_true(says(bad("[swing]\nright = -0.3\nleft = 0.4\n"), "swing.speed"));
+  assert_true(says(bad("[swing]\nright = 0.1\nleft = 0.4\nspeed = 0.5\n"), "at least 0.6 rad"));
+  assert_true(says(bad("[swing]\nright = -4\nleft = 0.4\nspeed = 0.5\n"), "swing.right"));
+  read_windows(folder.file("[boom]\nleast = 0.1\nmost = 0.8\nspeed = 0.3\n"), options);
+  assert_false(options.swing);
+  SequenceOptions without = whole();
+  without.drives = {false, false, false};
+  const auto none = [&] {
+    read_windows(folder.file("[swing]\nright = -0.3\nleft = 0.4\nspeed = 0.5\n"), without);
+  };
+  assert_true(says(refusal(none), "swing"));
+}
+
+TEST(a_sector_by_questions) {
+  SequenceOptions options = whole_12t();
+  options.drives = {false, false, false};
+  const std::vector<std::string> answers = {"-5 5", "", "-25 20", "0.4"};
+  std::size_t at = 0;
+  assert_true(ask_windows(
+      [&](const std::string&) {
+        return at < answers.size() ? std::optional<std::string>(answers[at++]) : std::nullopt;
+      },
+      options));
+  assert_near(options.sector.right_rad, -25.0 * M_PI / 180.0, 1e-12);
+  assert_near(options.sector.left_rad, 20.0 * M_PI / 180.0, 1e-12);
+  assert_near(options.sector.most_radps, 0.4, 1e-12);
+}
+
 TEST(windows_by_questions) {
   SequenceOptions options = whole();
   options.drives = {true, false, true};
@@ -116,6 +161,34 @@ TEST(progress_comes_back) {
   assert_near(after.results[0].duty, 0.41, 0.0);
   assert_near(after.results[1].speed_mps, 0.2, 0.0);
   require_same_windows(before.options, after.options);
+}
+
+TEST(progress_keeps_the_sector) {
+  const Folder folder;
+  const fs::path file = folder.path / "progress";
+  commission::Progress before;
+  before.profile_hash = 0x1234;
+  before.options = whole_12t();
+  before.options.drives = {false, false, false};
+  before.options.sector = {-0.4, 0.5, 0.45};
+  before.results = {{StepEnd::kDone, 0.0, 0.0, 9.0}, {StepEnd::kOutside, 0.0, 0.0, 1.0}};
+  write_progress(file, before);
+  const commission::Progress after = read_progress(file, 0x1234, whole_12t());
+  assert_true(after.options.swing);
+  assert_near(after.options.sector.left_rad, 0.5, 1e-9);
+  assert_int_equal(after.results[1].end, StepEnd::kOutside);
+  require_same_windows(before.options, after.options);
+  SequenceOptions wider = after.options;
+  wider.sector.left_rad = 0.6;
+  assert_true(says(refusal([&] { require_same_windows(after.options, wider); }), "another sector"));
+  wider.swing = false;
+  assert_true(says(refusal([&] { require_same_windows(after.options, wider); }), "another sector"));
+  // One from before the swing was led.
+  before.options.has_swing = false;
+  before.options.swing = false;
+  before.results.clear();
+  write_progress(file, before);
+  assert_false(read_progress(file, 0x1234, whole_12t()).options.swing);
 }
 
 TEST(progress_of_something_else_is_refused) {

@@ -269,3 +269,27 @@ TEST(too_fast_for_its_window) {
   assert_true(rig.try_duty(kArm, -0.7, 4.0)[kArm] < 0.05);
   rig.expect_stop({Fault::kCommissionBound}, [] {});
 }
+
+/// The swing's lever is its duty, of which the profile's watches ask nothing; while a link is tried
+/// it is neutral.
+TEST(a_duty_turns_the_swing_while_nothing_else_is_tried) {
+  for (const double duty : {0.5, -0.5}) {
+    const machines::SimulatedExcavator& machine = test::excavator_12t();
+    Station rig(machine, Eigen::Vector3d(0.5, 0.6, 0.4));
+    rig.hands.lever_ratio[kSwing] = duty;
+    rig.run(1.0);
+    assert_int_equal(rig.status().fault, Fault::kNone);
+    assert_near(rig.ecu->outputs().duty_ratio[kSwing], duty, 0.01);
+    assert_true(rig.plant.plant().swing_rad() * duty > 0.02);
+    rig.hands.tried_ratio[kBucket] = 0.3;
+    rig.run(0.3);
+    assert_near(rig.ecu->outputs().duty_ratio[kSwing], 0.0, 0.0);
+    rig.hands.tried_ratio[kBucket] = 0.0;
+    rig.hands.lever_ratio[kSwing] = 0.0;
+    rig.run(1.5);
+    const double stands_rad = rig.plant.plant().swing_rad();
+    rig.run(1.0);
+    assert_near(rig.plant.plant().swing_rad(), stands_rad, 0.003);
+    assert_int_equal(rig.status().fault, Fault::kNone);
+  }
+}
