@@ -18,6 +18,8 @@
 #include "app/identify/file/identified_file.hpp"
 #include "app/identify/machine/log_checks.hpp"
 #include "app/identify/machine/stroke_scale.hpp"
+#include "app/identify/machine/swing_figures.hpp"
+#include "app/machines/answer_section.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "app/machines/profile_document.hpp"
 #include "app/reports/identify/identify_report.hpp"
@@ -31,6 +33,10 @@ constexpr std::size_t kShortHash = 12;
 
 machines::ExcavatorMachine load_profile(const std::string& name) {
   return machines::load_excavator(machines::find_profile(name));
+}
+
+std::string commissioned_of(const machines::ExcavatorMachine& machine) {
+  return machines::commissioned_text(machine.driven, machine.profile.drive_count);
 }
 
 /// The profile says that values of it are from this log; see source_of().
@@ -48,7 +54,8 @@ std::vector<identify::MachineLog> read_logs(const IdentifyLogCommand& options,
   const ExcavatorProfile& profile = machine.profile;
   std::vector<identify::MachineLog> logs;
   for (const std::string& file : options.logs) {
-    logs.push_back(identify::read_machine_log(file, profile.pump_count));
+    logs.push_back(
+        identify::read_machine_log(file, profile.pump_count, identify::swing_lever_m(profile)));
     const identify::MachineLog& log = logs.back();
     for (const std::string& note : log.notes) {
       fmt::print("note: {}\n", note);
@@ -115,7 +122,7 @@ void assert_within(const identify::PredictionScore& score, double limit_percent)
     return;
   }
   const std::vector<std::string> open = identify::unjudged_sides(score);
-  if (open.size() == 2 * kAxisCount) {
+  if (!identify::any_judged(score)) {
     throw std::runtime_error("--limit: no drive kept a steady speed that could be judged");
   }
   if (!open.empty()) {
@@ -156,10 +163,11 @@ void assert_better(const identify::JudgedFit& fit, const IdentifyLogCommand& opt
       fit.judged_s,
       fit.predicts() ? "the old one"
                      : "one of a machine that stands: are the logs of one machine?");
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
-    text += fmt::format(" {} {:.1f} and {:.1f} %{}", identify::kAxisTexts[k],
-                        100.0 * fit.before.axis[k].share(), 100.0 * fit.left_out.axis[k].share(),
-                        k + 1 < kAxisCount ? "," : "");
+  for (std::size_t k = 0; k < kDriveCount; ++k) {
+    if (k < kAxisCount || fit.before.axis[k].speed_mps2 > 0.0) {
+      text += fmt::format("{} {} {:.1f} and {:.1f} %", k == 0 ? "" : ",", identify::kAxisTexts[k],
+                          100.0 * fit.before.axis[k].share(), 100.0 * fit.left_out.axis[k].share());
+    }
   }
   throw std::runtime_error(fit.predicts() ? text + next_text(options) : text);
 }
@@ -192,6 +200,9 @@ void identify_logs(const IdentifyLogCommand& options) {
   for (const std::string& missing : fit.machine.missing) {
     fmt::print("{}\n", missing);
   }
+  for (const std::string& sentence : identify::swing_sentences(fit.machine.swing)) {
+    fmt::print("{}\n", sentence);
+  }
   for (const std::string& note : identify::scale_notes(fit.machine)) {
     fmt::print("{}\n", note);
   }
@@ -211,6 +222,7 @@ void identify_logs(const IdentifyLogCommand& options) {
   }
   write_whole(options.out, text);
   fmt::print("profile  {}\n", options.out);
+  fmt::print("{}\n", commissioned_of(load_profile(options.out)));
   fmt::print("next     graben identify --check --log {} --profile {} --before {}\n",
              shell_word(options.logs.back()), shell_word(options.out), shell_word(options.profile));
   if (!options.report.empty()) {
@@ -241,6 +253,7 @@ void check_logs(const IdentifyLogCommand& options) {
   const identify::PredictionScore now = identify::score_of(model, logs, stretches, spools);
   columns.push_back({"now", &now});
   fmt::print("{}", reports::prediction_table(columns));
+  fmt::print("{}\n", commissioned_of(machine));
   for (const std::string& sentence : identify::score_sentences(now)) {
     fmt::print("{}\n", sentence);
   }

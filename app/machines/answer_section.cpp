@@ -2,6 +2,7 @@
 #include "app/machines/answer_section.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -62,7 +63,7 @@ std::array<DrivenRanges, kDriveCount> read_driven(TomlReader& reader, int drive_
       const std::vector<double> range = reader.numbers(
           key, {0.0, 1.0, ""}, 2,
           "shares of the duty between which this side was measured; nothing is known beyond");
-      driven[static_cast<unsigned>(drive)].side(extends) = {range[0], range[1]};
+      driven[static_cast<unsigned>(drive)].side(extends) = {range[0], range[1], true};
       if (range[0] >= range[1]) {
         reader.fail(
             key,
@@ -72,6 +73,31 @@ std::array<DrivenRanges, kDriveCount> read_driven(TomlReader& reader, int drive_
     }
   }
   return driven;
+}
+
+std::vector<std::string> uncommissioned_sides(const std::array<DrivenRanges, kDriveCount>& driven,
+                                              int drive_count) {
+  std::vector<std::string> sides;
+  for (int drive = 0; drive < drive_count; ++drive) {
+    for (const bool extends : {true, false}) {
+      if (!driven[static_cast<unsigned>(drive)].side(extends).said) {
+        sides.push_back(side_name(drive, extends));
+      }
+    }
+  }
+  return sides;
+}
+
+std::string commissioned_text(const std::array<DrivenRanges, kDriveCount>& driven,
+                              int drive_count) {
+  const std::vector<std::string> sides = uncommissioned_sides(driven, drive_count);
+  if (sides.empty()) {
+    return "commissioned: every drive, both sides";
+  }
+  if (sides.size() == 2 * static_cast<std::size_t>(drive_count)) {
+    return "not commissioned: no side of any drive is marked as measured (key driven)";
+  }
+  return fmt::format("not commissioned: {}", fmt::join(sides, "; "));
 }
 
 double shortest_dead_time_s(const ExcavatorProfile& profile) {

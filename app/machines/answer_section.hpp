@@ -4,14 +4,14 @@
 /// answers, where that is known by itself.
 
 #include <array>
+#include <string>
+#include <vector>
 
+#include "app/machines/axis_names.hpp"
 #include "app/machines/toml_reader.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::machines {
-
-/// Keys of the sides, in the order extend, retract.
-inline constexpr std::array<const char*, 2> kSideNames = {"extend", "retract"};
 
 /// "valve.answer.boom.extend."
 [[nodiscard]] std::string answer_key(int drive, bool extends);
@@ -19,11 +19,12 @@ inline constexpr std::array<const char*, 2> kSideNames = {"extend", "retract"};
 /// Nothing said where the file has no such section.
 void read_answers(TomlReader& reader, int drive_count, ValveProfile& valve);
 
-/// Shares of the duty between which a side's values were measured; the whole of it where the file
-/// does not say.
+/// Shares of the duty between which a side's values were measured: the mark that `graben identify`
+/// leaves on a side that was commissioned.
 struct DrivenRange {
   double least = 0.0;
   double most = 1.0;
+  bool said = false;  ///< Else nothing was measured, as far as the file says.
 };
 
 struct DrivenRanges {
@@ -36,6 +37,14 @@ struct DrivenRanges {
 
 [[nodiscard]] std::array<DrivenRanges, kDriveCount> read_driven(TomlReader& reader,
                                                                 int drive_count);
+
+/// "swing, left": the sides that the file does not say to have been measured, in their order.
+[[nodiscard]] std::vector<std::string> uncommissioned_sides(
+    const std::array<DrivenRanges, kDriveCount>& driven, int drive_count);
+
+/// "not commissioned: swing, left; swing, right", or what else is to be said of that.
+[[nodiscard]] std::string commissioned_text(const std::array<DrivenRanges, kDriveCount>& driven,
+                                            int drive_count);
 
 /// Shortest dead time of all sides, s.
 [[nodiscard]] double shortest_dead_time_s(const ExcavatorProfile& profile);

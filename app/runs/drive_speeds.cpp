@@ -25,7 +25,29 @@ double speed_mps(const identify::DriveModel& model, const std::array<double, kPu
   return std::abs(model.speeds_mps(moment)[axis]);
 }
 
+/// Over the duties that were driven, of full speed.
+double side_error(const ExcavatorProfile& profile, const identify::SideEstimate& side,
+                  const identify::DriveModel& is, const identify::DriveModel& truly,
+                  std::size_t axis, bool extends) {
+  const auto at_mps = [&](const identify::DriveModel& model, double duty) {
+    return speed_mps(model, profile.dig_swash_ratio, axis, extends, duty);
+  };
+  const double full_mps = at_mps(truly, 1.0);
+  double most = 0.0;
+  for (double duty = side.driven_least; duty <= side.driven_most; duty += kDutyStep) {
+    most = std::max(most, std::abs(at_mps(is, duty) - at_mps(truly, duty)) / full_mps);
+  }
+  return most;
+}
+
 }  // namespace
+
+double swing_speed_error(const ExcavatorProfile& profile, const identify::MachineEstimate& found,
+                         const identify::MachineEstimate& truth, bool left) {
+  return side_error(profile, found.drive[kSwing].side(left),
+                    identify::DriveModel(identify::identified(profile, found)),
+                    identify::DriveModel(identify::identified(profile, truth)), kSwing, left);
+}
 
 double largest_speed_error(const ExcavatorProfile& profile, const identify::MachineEstimate& found,
                            const identify::MachineEstimate& truth) {
@@ -34,14 +56,8 @@ double largest_speed_error(const ExcavatorProfile& profile, const identify::Mach
   double most = 0.0;
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
     for (const bool extends : {true, false}) {
-      const auto at_mps = [&](const identify::DriveModel& model, double duty) {
-        return speed_mps(model, profile.dig_swash_ratio, axis, extends, duty);
-      };
-      const identify::SideEstimate& side = found.drive[axis].side(extends);
-      const double full_mps = at_mps(truly, 1.0);
-      for (double duty = side.driven_least; duty <= side.driven_most; duty += kDutyStep) {
-        most = std::max(most, std::abs(at_mps(is, duty) - at_mps(truly, duty)) / full_mps);
-      }
+      most = std::max(
+          most, side_error(profile, found.drive[axis].side(extends), is, truly, axis, extends));
     }
   }
   return most;

@@ -15,4 +15,9 @@ namespace graben::runs {
                                          const identify::MachineEstimate& found,
                                          const identify::MachineEstimate& truth);
 
+/// The same of one side of the swing.
+[[nodiscard]] double swing_speed_error(const ExcavatorProfile& profile,
+                                       const identify::MachineEstimate& found,
+                                       const identify::MachineEstimate& truth, bool left);
+
 }  // namespace graben::runs

@@ -5,10 +5,13 @@
 #include <stdexcept>
 
 #include "app/identify/machine/identified_profile.hpp"
+#include "app/identify/machine/log_checks.hpp"
 #include "app/identify/machine/machine_fit.hpp"
+#include "app/identify/machine/swing_figures.hpp"
 #include "app/machines/simulated/hidden.hpp"
 #include "app/runs/commission_run.hpp"
 #include "app/runs/dig_run.hpp"
+#include "app/runs/drive_speeds.hpp"
 #include "app/runs/known_machine.hpp"
 #include "app/runs/scenarios.hpp"
 
@@ -49,6 +52,20 @@ void take_errors(const IdentificationErrors& errors, IdentifySummary& summary) {
   summary.pump_flow_error_ratio = errors.pump_flow;
   summary.speed_error_ratio = errors.speed_ratio;
   summary.within_band_share = errors.within_share();
+}
+
+void take_swing(const ExcavatorProfile& profile, const identify::MachineEstimate& found,
+                const machines::MachineTruth& truth, IdentifySummary& summary) {
+  const auto error = [&](bool left) {
+    // What was not driven is not known at all.
+    return found.drive[kSwing].side(left).driven_most > 0.0
+               ? swing_speed_error(profile, found, known_machine(profile, truth), left)
+               : 1.0;
+  };
+  if (profile.has_swing()) {
+    summary.swing_left_error_ratio = error(true);
+    summary.swing_right_error_ratio = error(false);
+  }
 }
 
 void take_times(const machines::MachineTruth& truth, IdentifySummary& summary) {
@@ -104,15 +121,19 @@ IdentifyResult run_identification(const machines::SimulatedExcavator& hidden,
   }
   identify::MachineEstimate found;
   try {
+    const std::vector<identify::MachineLog> logs = {
+        frames.log(hidden.profile.pump_count, identify::swing_lever_m(hidden.profile))};
     found = identify::identify_machine(
-        identify::DriveModel(hidden.profile), {frames.log(hidden.profile.pump_count)},
+        identify::DriveModel(hidden.profile), logs,
         [&](double share, const std::string& what) { progress(0.4 + 0.3 * share, what); });
+    found.swing = identify::find_swing(hidden.profile, logs);
   } catch (const std::runtime_error&) {
     result.end = IdentifyEnd::kNotIdentified;
     return result;
   }
   if (options.truth_is_known) {
     take_errors(errors_of(hidden.profile, found, truth), summary);
+    take_swing(hidden.profile, found, truth, summary);
   }
   const double override_ratio =
       options.speed_override_ratio * (summary.longest_dead_time_s > kLateHydraulics_s ? 0.5 : 1.0);
@@ -201,6 +222,12 @@ const FigureTable<IdentifySummary>& identify_figures() {
        [](const S& s) { return s.longest_dead_time_s; }},
       {{"longest_lag_s", "longest lag", kSeconds, "longest_lag_s"},
        [](const S& s) { return s.longest_lag_s; }},
+      {{"swing_left_error_ratio", "speed of the swing to the left, largest error, of full",
+        kPercent, "swing_left_error_ratio"},
+       [](const S& s) { return s.swing_left_error_ratio; }},
+      {{"swing_right_error_ratio", "speed of the swing to the right, largest error, of full",
+        kPercent, "swing_right_error_ratio"},
+       [](const S& s) { return s.swing_right_error_ratio; }},
   };
   return all;
 }

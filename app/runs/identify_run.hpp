@@ -48,6 +48,9 @@ struct IdentifySummary {
   double within_band_share = kAbsent;
   double longest_dead_time_s = kAbsent;
   double longest_lag_s = kAbsent;
+  double swing_left_error_ratio =
+      kAbsent;  ///< Speed of the swing alone, of full; without one absent.
+  double swing_right_error_ratio = kAbsent;
   LimitShares limit_share;
 };
 

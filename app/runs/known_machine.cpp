@@ -43,8 +43,11 @@ double coefficient_factor(const ExcavatorProfile& profile, int axis, bool extend
                           const SideTruth& side) {
   const auto k = static_cast<unsigned>(axis);
   const SpoolProfile& spool = profile.valve.spool[k];
-  const double cap_m2 = profile.geometry.cylinder[k].cap_area_m2();
-  const double rod_m2 = profile.geometry.cylinder[k].rod_area_m2();
+  const bool turns = axis == kSwing;
+  const double cap_m2 =
+      turns ? profile.swing.area_m2() : profile.geometry.cylinder[k].cap_area_m2();
+  const double rod_m2 =
+      turns ? profile.swing.area_m2() : profile.geometry.cylinder[k].rod_area_m2();
   const auto full = [&](double in_m2, double out_m2) {
     return full_opening_velocity_coefficient(profile.valve, in_m2, out_m2,
                                              extends ? cap_m2 : rod_m2, extends ? rod_m2 : cap_m2);
@@ -112,7 +115,7 @@ void compare_side(const ExcavatorProfile& profile, const identify::SideEstimate&
 identify::MachineEstimate known_machine(const ExcavatorProfile& profile,
                                         const machines::MachineTruth& truth) {
   identify::MachineEstimate machine;
-  for (int axis = 0; axis < kAxisCount; ++axis) {
+  for (int axis = 0; axis < profile.drive_count; ++axis) {
     const auto k = static_cast<unsigned>(axis);
     const DriveTruth& from = truth.drive[k];
     identify::DriveEstimate& drive = machine.drive[k];

@@ -332,10 +332,28 @@ def worse(tool, log_file, better):
 
 
 def commissions_one_pump(graben, folder):
-    """A machine whose bus has room for a pump that it has not."""
-    done = subprocess.run([graben, "commission", "--profile", "excavator_12t", "--log", folder / "one.log"],
-                          capture_output=True, text=True, check=False)
+    """A machine whose bus has room for a pump that it has not, and that swings: all of it is found and said."""
+    def run(*words):
+        return subprocess.run([graben, *words], capture_output=True, text=True, check=False)
+
+    log, better = folder / "one.log", folder / "one.toml"
+    done = run("commission", "--profile", "excavator_12t", "--hidden", "5", "--log", log)
     assert done.returncode == 0 and "graben identify" in done.stdout, done.stdout[-400:] + done.stderr
+    assert "swing, right: step 4 of 4" in done.stdout and "left out" not in done.stdout, done.stdout
+    done = run("identify", "--log", log, "--profile", "excavator_12t", "--out", better, "--summary", folder / "one.json")
+    assert done.returncode == 0, done.stdout[-400:] + done.stderr
+    for word in ("swing, left", "swing, right", "once its command is neutral", "commissioned: every drive, both sides"):
+        assert word in done.stdout, (word, done.stdout)
+    text = better.read_text(encoding="utf-8")
+    assert "[valve.answer.swing.retract]" in text and "swing.inertia" in text, text
+    assert json.loads((folder / "one.json").read_text())["swing"]["coasts_left"]["angle_rad"] > 0.02
+    log.unlink()
+    done = run("commission", "--profile", "excavator_12t", "--hidden", "5", "--log", log, "--only", "bucket",
+               "--no-touch", "bucket-retracted,bucket-extended", "--no-bursts")
+    assert "left out, and so not identified: all of the swing" in done.stdout, done.stdout
+    done = run("identify", "--log", log, "--profile", "excavator_12t", "--out", better, "--force")
+    assert "swing, left: was not driven" in done.stdout, done.stdout + done.stderr
+    assert "not commissioned: boom, extend; boom, retract; arm" in done.stdout, done.stdout
 
 
 def main(graben, commission_log, machines):

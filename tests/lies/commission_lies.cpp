@@ -10,6 +10,7 @@
 #include <exception>
 
 #include "app/identify/machine/judged_fit.hpp"
+#include "app/identify/machine/log_checks.hpp"
 #include "app/identify/machine/machine_log.hpp"
 #include "app/identify/machine/stroke_scale.hpp"
 #include "app/machines/excavator_file.hpp"
@@ -123,9 +124,10 @@ void try_one(const Wanted& asked, std::uint64_t seed) {
   if (done) {
     bench.run(0.5);
     try {
-      const auto fit =
-          identify::fit_and_judge(hidden.profile, {frames.log(hidden.profile.pump_count)},
-                                  [](double, const std::string&) {});
+      const auto fit = identify::fit_and_judge(
+          hidden.profile,
+          {frames.log(hidden.profile.pump_count, identify::swing_lever_m(hidden.profile))},
+          [](double, const std::string&) {});
       fmt::print(" {}", fit.is_better() ? "better" : "not better");
       print_factors(fit.machine);
     } catch (const std::exception& error) {

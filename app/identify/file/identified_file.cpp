@@ -167,7 +167,7 @@ Changes changes_of(const ExcavatorProfile& was, const JudgedFit& fit) {
                          before * fit.machine.pump_flow_factor[j].deviation});
     }
   }
-  for (int axis = 0; axis < kAxisCount; ++axis) {
+  for (int axis = 0; axis < was.drive_count; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
     const auto before = areas_m2(was.valve.spool[k]);
     const auto now = areas_m2(is.valve.spool[k]);
@@ -176,12 +176,16 @@ Changes changes_of(const ExcavatorProfile& was, const JudgedFit& fit) {
                          area_deviation_m2(fit.machine.drive[k], was.valve.spool[k]), axis});
     }
   }
-  for (int axis = 0; axis < kAxisCount; ++axis) {
+  for (int axis = 0; axis < was.drive_count; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
     for (const bool extends : {true, false}) {
       change_side(axis, extends, was.valve.answer[k].side(extends),
                   is.valve.answer[k].side(extends), fit.machine.drive[k], changes);
     }
+  }
+  if (is.swing.inertia_kgm2 != was.swing.inertia_kgm2) {
+    changes.push_back({"swing", "inertia", number(is.swing.inertia_kgm2),
+                       number(was.swing.inertia_kgm2), fit.machine.swing.inertia_kgm2.deviation});
   }
   change_control(was.control, is.control, changes);
   if (is.safety.settle_s != was.safety.settle_s) {
@@ -259,7 +263,7 @@ std::string first_difference(const ExcavatorProfile& one, const ExcavatorProfile
       return fmt::format("pump[{}].displacement", j);
     }
   }
-  for (int axis = 0; axis < kAxisCount; ++axis) {
+  for (int axis = 0; axis < one.drive_count; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
     if (!all_close(areas_m2(one.valve.spool[k]), areas_m2(other.valve.spool[k]))) {
       return fmt::format("valve.{}", machines::kDriveNames[k]);
@@ -272,6 +276,9 @@ std::string first_difference(const ExcavatorProfile& one, const ExcavatorProfile
         return machines::answer_key(axis, extends) + "*";
       }
     }
+  }
+  if (!close(one.swing.inertia_kgm2, other.swing.inertia_kgm2)) {
+    return "swing.inertia";
   }
   for (const ControlValue& each : kControlValues) {
     if (!close(one.control.*each.value, other.control.*each.value)) {

@@ -19,6 +19,13 @@ constexpr int kHalvings = 40;
 /// Of a line without a relief valve, Pa.
 constexpr double kMost_pa = 60e6;
 
+/// Of the swing's sensors a profile says none.
+std::array<double, kDriveCount> with_swing_zero(const std::array<double, kAxisCount>& zero_pa) {
+  std::array<double, kDriveCount> all{};
+  std::copy(zero_pa.begin(), zero_pa.end(), all.begin());
+  return all;
+}
+
 /// Root of a falling function in [low, high]; an end where there is none.
 template <class Falling>
 double root(double low, double high, const Falling& falling) {
@@ -112,8 +119,8 @@ DriveModel::DriveModel(const ExcavatorProfile& profile)
       answer{profile.valve.spool_to_duty, profile.control.dead_time_s, profile.control.response_s,
              profile.oil.spool_time_constant_s},
       pump(profile.pump),
-      cap_zero_pa(profile.sensor_zero.cap_pa),
-      rod_zero_pa(profile.sensor_zero.rod_pa) {}
+      cap_zero_pa(with_swing_zero(profile.sensor_zero.cap_pa)),
+      rod_zero_pa(with_swing_zero(profile.sensor_zero.rod_pa)) {}
 
 PerPump<double> DriveModel::flow_m3ps(double engine_radps,
                                       const std::array<double, kPumpCount>& swash) const {
@@ -124,10 +131,10 @@ PerPump<double> DriveModel::flow_m3ps(double engine_radps,
   return each_m3ps;
 }
 
-std::array<double, kAxisCount> DriveModel::speeds_mps(const ValveMoment& moment) const {
-  std::array<double, kAxisCount> speeds{};
+std::array<double, kDriveCount> DriveModel::speeds_mps(const ValveMoment& moment) const {
+  std::array<double, kDriveCount> speeds{};
   McvInput input;
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < drives(); ++k) {
     input.velocity_mps[k] = moment.opening[k] == 0.0 ? 0.0 : std::copysign(1.0, moment.opening[k]);
     input.cap_pressure_pa[k] = std::max(0.0, moment.cap_pa[k]);
     input.rod_pressure_pa[k] = std::max(0.0, moment.rod_pa[k]);
@@ -136,7 +143,7 @@ std::array<double, kAxisCount> DriveModel::speeds_mps(const ValveMoment& moment)
   const McvCircuit circuit = make_circuit(valve, input);
   for (unsigned j = 0; j < static_cast<unsigned>(valve.pump_count); ++j) {
     std::vector<Open> opens;
-    for (int axis = 0; axis < kAxisCount; ++axis) {
+    for (int axis = 0; axis < valve.actuator_count; ++axis) {
       const CircuitAxis& of = circuit.axis[static_cast<std::size_t>(axis)];
       if (of.moves && of.pump == j) {
         opens.push_back(open_axis(*this, circuit, moment, axis));

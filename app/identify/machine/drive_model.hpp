@@ -18,10 +18,10 @@ namespace graben::identify {
 /// One moment of a machine. SI units; extension is positive.
 struct ValveMoment {
   /// Share of the travel outside the dead band, its sign the side.
-  std::array<double, kAxisCount> opening{};
+  std::array<double, kDriveCount> opening{};
   /// True pressures: the sensors' zeros are taken off.
-  std::array<double, kAxisCount> cap_pa{};
-  std::array<double, kAxisCount> rod_pa{};
+  std::array<double, kDriveCount> cap_pa{};
+  std::array<double, kDriveCount> rod_pa{};
   std::array<double, kPumpCount> swash{};
   double engine_radps = 0.0;
 };
@@ -36,7 +36,12 @@ struct DriveModel {
   /// Speeds that the pumps' lines, the loads and the openings leave: v = c_L(x) sqrt(F), (9) to
   /// (12), and the flow balance (27) of each line, together. A cylinder whose load drives it while
   /// no oil is behind it goes as fast as its draining edge lets it.
-  [[nodiscard]] std::array<double, kAxisCount> speeds_mps(const ValveMoment& moment) const;
+  [[nodiscard]] std::array<double, kDriveCount> speeds_mps(const ValveMoment& moment) const;
+
+  /// With a swing one more than the cylinders.
+  [[nodiscard]] std::size_t drives() const {
+    return static_cast<std::size_t>(valve.actuator_count);
+  }
 
   std::array<DriveRow, kDriveCount> drive;
   McvMachine valve;
@@ -44,8 +49,8 @@ struct DriveModel {
   SpoolMetering metering;  ///< The same of every section.
   SpoolAnswer answer;      ///< Of the whole valve, whatever a side says by itself.
   std::array<PumpProfile, kPumpCount> pump;
-  std::array<double, kAxisCount> cap_zero_pa;  ///< What the sensors show of no pressure.
-  std::array<double, kAxisCount> rod_zero_pa;
+  std::array<double, kDriveCount> cap_zero_pa;  ///< What the sensors show of no pressure.
+  std::array<double, kDriveCount> rod_zero_pa;
 };
 
 }  // namespace graben::identify

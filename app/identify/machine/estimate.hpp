@@ -70,9 +70,28 @@ struct DriveEstimate {
   }
 };
 
-using DriveEstimates = std::array<DriveEstimate, kAxisCount>;
+/// With the swing, which extends to the left: travels at SwingProfile::lever_m, as in the core.
+using DriveEstimates = std::array<DriveEstimate, kDriveCount>;
+
+/// The fastest coasting of a side that was seen: from the moment its command was neutral.
+struct SwingCoast {
+  bool known = false;
+  double from_radps = 0.0;  ///< As fast it turned then.
+  double angle_rad = 0.0;   ///< So far it went on.
+  double time_s = 0.0;
+  double most_pa = 0.0;  ///< Largest pressure that braked it; its relief is not below that.
+};
+
+/// See find_swing().
+struct SwingFigures {
+  Estimate inertia_kgm2;  ///< Of all that turns, links half out.
+  Estimate friction_nm;
+  SwingCoast left;
+  SwingCoast right;
+};
 
 struct MachineEstimate {
+  SwingFigures swing;
   DriveEstimates drive;
   std::array<Estimate, kPumpCount> pump_flow_factor;  ///< Of the profile's displacement.
   std::vector<std::string> missing;  ///< What the logs do not support, a sentence each.

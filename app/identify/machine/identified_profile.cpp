@@ -64,10 +64,14 @@ struct SideAreas {
 SideAreas areas_of(const ExcavatorProfile& profile, int axis, bool extends,
                    const SideEstimate& side) {
   const auto k = static_cast<unsigned>(axis);
-  const CylinderGeometry& cylinder = profile.geometry.cylinder[k];
   const SpoolProfile& spool = profile.valve.spool[k];
-  const double fed3 = cube(extends ? cylinder.cap_area_m2() : cylinder.rod_area_m2());
-  const double drained3 = cube(extends ? cylinder.rod_area_m2() : cylinder.cap_area_m2());
+  const bool turns = axis == kSwing;
+  const double cap_m2 =
+      turns ? profile.swing.area_m2() : profile.geometry.cylinder[k].cap_area_m2();
+  const double rod_m2 =
+      turns ? profile.swing.area_m2() : profile.geometry.cylinder[k].rod_area_m2();
+  const double fed3 = cube(extends ? cap_m2 : rod_m2);
+  const double drained3 = cube(extends ? rod_m2 : cap_m2);
   const double in_m2 = extends ? spool.extend_in_m2 : spool.retract_in_m2;
   const double out_m2 = extends ? spool.extend_out_m2 : spool.retract_out_m2;
   const double factor = side.coefficient_factor.value;
@@ -97,12 +101,15 @@ void set_areas(int axis, const DriveEstimate& drive, ExcavatorProfile& profile) 
 ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstimate& machine) {
   ExcavatorProfile result = profile;
   double longest_lag_s = 0.0;
-  for (int axis = 0; axis < kAxisCount; ++axis) {
+  for (int axis = 0; axis < result.drive_count; ++axis) {
     const auto k = static_cast<unsigned>(axis);
     const DriveEstimate& drive = machine.drive[k];
     set_side(drive, true, result.valve.answer[k].extend);
     set_side(drive, false, result.valve.answer[k].retract);
     set_areas(axis, drive, result);
+    if (axis == kSwing) {
+      continue;
+    }
     longest_lag_s = std::max(longest_lag_s, drive.lag_s());
     if (drive.stroke_zero_m.known) {
       result.sensor_zero.stroke_m[k] = drive.stroke_zero_m.value;
@@ -113,6 +120,9 @@ ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstima
     if (drive.rod_zero_pa.known) {
       result.sensor_zero.rod_pa[k] = drive.rod_zero_pa.value;
     }
+  }
+  if (machine.swing.inertia_kgm2.known) {
+    result.swing.inertia_kgm2 = machine.swing.inertia_kgm2.value;
   }
   for (unsigned j = 0; j < static_cast<unsigned>(result.pump_count); ++j) {
     if (machine.pump_flow_factor[j].known) {

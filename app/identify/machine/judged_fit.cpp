@@ -2,6 +2,7 @@
 #include "app/identify/machine/judged_fit.hpp"
 
 #include "app/identify/machine/identified_profile.hpp"
+#include "app/identify/machine/swing_figures.hpp"
 
 namespace graben::identify {
 namespace {
@@ -36,6 +37,7 @@ JudgedFit fit_and_judge(const ExcavatorProfile& profile, const std::vector<Machi
   const DriveModel old(profile);
   const MachineEstimate without = identify_machine(old, split.fitted, part(progress, 0.0, 0.4));
   fit.machine = identify_machine(old, logs, part(progress, 0.4, 0.85));
+  fit.machine.swing = find_swing(profile, logs);
   fit.profile = identified(profile, fit.machine);
   progress(0.85, "judges by what was left out");
   const auto judged = [&](const DriveModel& model) {

@@ -11,6 +11,11 @@
 
 namespace graben::identify {
 
+/// Where the swing of a profile stands as a drive; 0 without one.
+[[nodiscard]] inline double swing_lever_m(const ExcavatorProfile& profile) {
+  return profile.has_swing() ? profile.swing.lever_m : 0.0;
+}
+
 /// Throws std::runtime_error, naming the log, where it says that it is of a machine with another
 /// profile than one of these hashes.
 void assert_same_machine(const MachineLog& log, const std::vector<std::uint32_t>& hashes);

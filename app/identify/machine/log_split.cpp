@@ -18,7 +18,7 @@ constexpr double kMoves_m = 0.01;
 /// Shorter than this, what is left between two stretches says nothing.
 constexpr std::size_t kShortest = 100;
 constexpr std::size_t kLeastStretches = 4;
-constexpr std::size_t kSides = 2 * kAxisCount;
+constexpr std::size_t kSides = 2 * kDriveCount;
 
 struct Motion {
   bool moves = false;
@@ -28,7 +28,7 @@ struct Motion {
 Motion motion_of(const LogSegment& segment, std::size_t begin, std::size_t end) {
   Motion motion;
   double most_m = kMoves_m;
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+  for (std::size_t axis = 0; axis < segment.drives; ++axis) {
     const CylinderSeries& series = segment.axis[axis];
     std::array<double, 2> way_m{};
     for (std::size_t at = begin + 1; at < end; ++at) {
@@ -66,7 +66,8 @@ LogSegment part_of(const LogSegment& segment, std::size_t begin, std::size_t end
   const double end_s = kGrid_s * static_cast<double>(end);
   LogSegment part = segment;
   part.begin_s += begin_s;
-  for (CylinderSeries& axis : part.axis) {
+  for (std::size_t k = 0; k < part.drives; ++k) {
+    CylinderSeries& axis = part.axis[k];
     for (std::vector<double>* values :
          {&axis.duty, &axis.spool, &axis.stroke_m, &axis.cap_pa, &axis.rod_pa}) {
       cut(*values);

@@ -5,14 +5,15 @@
 
 #include <stdexcept>
 
+#include "app/identify/machine/prediction_score.hpp"
 #include "app/identify/machine/spool_answer.hpp"
 #include "app/identify/machine/touches.hpp"
 #include "app/identify/machine/valve_fit.hpp"
+#include "app/machines/axis_names.hpp"
 
 namespace graben::identify {
 namespace {
 
-constexpr std::array<const char*, kAxisCount> kNames = {"boom", "arm", "bucket"};
 /// A duty below which nearly nothing of the valve's range was tried.
 constexpr double kWholeRange = 0.9;
 
@@ -26,9 +27,7 @@ SideEstimate side_of(const DriveModel& model) {
   return side;
 }
 
-void tell_side(const char* name, const char* direction, const SideEstimate& side,
-               std::vector<std::string>& missing) {
-  const std::string of = fmt::format("{}, {}", name, direction);
+void tell_side(const std::string& of, const SideEstimate& side, std::vector<std::string>& missing) {
   if (side.driven_most == 0.0) {
     missing.push_back(of + ": was not driven");
     return;
@@ -59,13 +58,16 @@ void tell_side(const char* name, const char* direction, const SideEstimate& side
 }
 
 void tell_missing(const DriveModel& model, MachineEstimate& machine) {
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+  for (std::size_t axis = 0; axis < model.drives(); ++axis) {
     const DriveEstimate& drive = machine.drive[axis];
-    tell_side(kNames[axis], "extend", drive.extend, machine.missing);
-    tell_side(kNames[axis], "retract", drive.retract, machine.missing);
+    tell_side(machines::side_name(static_cast<int>(axis), true), drive.extend, machine.missing);
+    tell_side(machines::side_name(static_cast<int>(axis), false), drive.retract, machine.missing);
+    if (axis == kSwing) {
+      continue;
+    }
     const auto keep = [&](const Estimate& estimate, const char* what) {
       if (!estimate.known) {
-        machine.missing.push_back(fmt::format("{}: {}", kNames[axis], what));
+        machine.missing.push_back(fmt::format("{}: {}", kAxisTexts[axis], what));
       }
     };
     keep(drive.stroke_zero_m, "no end of its stroke was touched: the stroke's zero stays");
@@ -106,9 +108,9 @@ MachineEstimate estimate_of(const DriveModel& model) {
 MachineEstimate identify_machine(const DriveModel& model, const std::vector<MachineLog>& logs,
                                  const MachineProgress& progress) {
   MachineEstimate machine = estimate_of(model);
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    progress(0.15 * axis,
-             fmt::format("{}: dead time and lags", kNames[static_cast<unsigned>(axis)]));
+  for (int axis = 0; axis < static_cast<int>(model.drives()); ++axis) {
+    progress(0.12 * axis,
+             fmt::format("{}: dead time and lags", kAxisTexts[static_cast<unsigned>(axis)]));
     find_spool_answer(logs, axis, machine.drive[static_cast<unsigned>(axis)]);
   }
   progress(0.5, "zeros of sensors");

@@ -14,6 +14,7 @@
 #include "app/identify/machine/log_version.hpp"
 #include "can_dbc/generated/dozer_dbc.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 #include "hal/link/e2e.hpp"
 
 namespace graben::identify {
@@ -31,11 +32,11 @@ using Readings = std::vector<Reading>;
 
 /// What comes off the bus, by its frames' times.
 struct Signals {
-  std::array<Readings, kAxisCount> duty;
-  std::array<Readings, kAxisCount> spool;
-  std::array<Readings, kAxisCount> stroke_m;
-  std::array<Readings, kAxisCount> cap_pa;
-  std::array<Readings, kAxisCount> rod_pa;
+  std::array<Readings, kDriveCount> duty;
+  std::array<Readings, kDriveCount> spool;
+  std::array<Readings, kDriveCount> stroke_m;
+  std::array<Readings, kDriveCount> cap_pa;
+  std::array<Readings, kDriveCount> rod_pa;
   std::array<Readings, kPumpCount> swash;
   Readings engine_radps;
 };
@@ -84,7 +85,7 @@ class LogCollector::Frames {
     decode(frame);
   }
 
-  MachineLog log(int pump_count);
+  MachineLog log(int pump_count, double swing_lever_m);
 
  private:
   [[noreturn]] void fail(std::size_t line, const std::string& what) const {
@@ -108,6 +109,7 @@ class LogCollector::Frames {
   void identify(const LoggedFrame& frame);
   void assert_whole() const;
   [[nodiscard]] LogSegment segment(double begin_s, double end_s, int pump_count) const;
+  void scale_swing(double lever_m);
 
   std::string name_;
   std::unordered_map<std::uint32_t, dbc::MessageInfo> known_;
@@ -115,6 +117,7 @@ class LogCollector::Frames {
   Signals signals_;
   std::map<const Readings*, std::size_t> invalid_;
   std::string other_version_;
+  std::size_t drives_ = kAxisCount;
   std::size_t dozer_ = 0;  ///< Frames that only a dozer's bus has.
   double last_s_ = -1e300;
 };
@@ -167,6 +170,22 @@ void LogCollector::Frames::decode(const LoggedFrame& frame) {
         const bool opens = on && duty[i].state == dbc::RawState::kValid;
         signals_.duty[i].push_back({t, opens ? duty[i].value : 0.0});
       }
+      return;
+    }
+    case bus::SwingState::kId: {
+      const auto message = bus::SwingState::decode(frame.data);
+      add(signals_.stroke_m[kSwing], t, message.swing_angle_rad);
+      return pressures(kSwing, message.swing_left_pressure_pa, message.swing_right_pressure_pa);
+    }
+    case bus::SwingValveState::kId:
+      return add(signals_.spool[kSwing], t,
+                 bus::SwingValveState::decode(frame.data).swing_spool_ratio);
+    case bus::SwingCommand::kId: {
+      const auto message = bus::SwingCommand::decode(frame.data);
+      const bool on = message.enable.state == dbc::RawState::kValid &&
+                      message.enable.value == bus::SwingCommand::Enable::kOn &&
+                      message.swing_duty_ratio.state == dbc::RawState::kValid;
+      signals_.duty[kSwing].push_back({t, on ? message.swing_duty_ratio.value : 0.0});
       return;
     }
     case bus::MachineIdentity::kId:
@@ -233,7 +252,8 @@ LogSegment LogCollector::Frames::segment(double begin_s, double end_s, int pump_
   part.begin_s = begin_s;
   const auto count = static_cast<std::size_t>((end_s - begin_s) / kGrid_s);
   part.senses_spools = true;
-  for (std::size_t i = 0; i < kAxisCount; ++i) {
+  part.drives = drives_;
+  for (std::size_t i = 0; i < drives_; ++i) {
     CylinderSeries& axis = part.axis[i];
     axis.duty = sampled(signals_.duty[i], begin_s, count, 0.0);
     axis.stroke_m = sampled(signals_.stroke_m[i], begin_s, count, 0.0);
@@ -241,7 +261,7 @@ LogSegment LogCollector::Frames::segment(double begin_s, double end_s, int pump_
     axis.rod_pa = sampled(signals_.rod_pa[i], begin_s, count, 0.0);
     axis.duties = within(signals_.duty[i], begin_s, end_s);
     axis.spools = within(signals_.spool[i], begin_s, end_s);
-    part.senses_spools = part.senses_spools && !axis.spools.empty();
+    part.senses_spools = part.senses_spools && (i == kSwing || !axis.spools.empty());
     axis.spool = axis.spools.empty() ? axis.duty : sampled(signals_.spool[i], begin_s, count, 0.0);
   }
   for (std::size_t j = 0; j < kPumpCount; ++j) {
@@ -298,8 +318,20 @@ void LogCollector::Frames::assert_whole() const {
   assert_heard(signals_.swash[0], "the swash of pump 1");
 }
 
-MachineLog LogCollector::Frames::log(int pump_count) {
+/// Angles as travels, as the core takes them.
+void LogCollector::Frames::scale_swing(double lever_m) {
+  const bool there = lever_m > 0.0 && !signals_.stroke_m[kSwing].empty() &&
+                     !signals_.duty[kSwing].empty() && !signals_.cap_pa[kSwing].empty() &&
+                     !signals_.rod_pa[kSwing].empty();
+  drives_ = there ? kDriveCount : kAxisCount;
+  for (Reading& angle : signals_.stroke_m[kSwing]) {
+    angle.value *= lever_m;
+  }
+}
+
+MachineLog LogCollector::Frames::log(int pump_count, double swing_lever_m) {
   assert_whole();
+  scale_swing(swing_lever_m);
   const Readings& strokes = signals_.stroke_m[0];
   double begin_s = strokes.front().time_s;
   double last_s = begin_s;
@@ -327,7 +359,9 @@ MachineLog LogCollector::Frames::log(int pump_count) {
 LogCollector::LogCollector(std::string name) : frames_(new Frames(std::move(name))) {}
 LogCollector::~LogCollector() = default;
 void LogCollector::take(const LoggedFrame& frame) { frames_->take(frame); }
-MachineLog LogCollector::log(int pump_count) { return frames_->log(pump_count); }
+MachineLog LogCollector::log(int pump_count, double swing_lever_m) {
+  return frames_->log(pump_count, swing_lever_m);
+}
 
 double MachineLog::length_s() const {
   double sum_s = 0.0;
@@ -337,10 +371,11 @@ double MachineLog::length_s() const {
   return sum_s;
 }
 
-MachineLog read_machine_log(const std::filesystem::path& file, int pump_count) {
+MachineLog read_machine_log(const std::filesystem::path& file, int pump_count,
+                            double swing_lever_m) {
   LogCollector collector(file.filename().string());
   LogRead read = read_candump(file, [&](const LoggedFrame& frame) { collector.take(frame); });
-  MachineLog log = collector.log(pump_count);
+  MachineLog log = collector.log(pump_count, swing_lever_m);
   log.sha256 = read.sha256;
   log.notes = read.notes();
   return log;

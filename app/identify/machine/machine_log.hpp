@@ -2,7 +2,8 @@
 #pragma once
 /// A candump log of an excavator on our bus as series of what identification needs: duties that the
 /// valves were sent, spools, strokes, chamber pressures, swash, engine speed. SI units; extension
-/// is positive.
+/// is positive. The swing is the last drive where the machine has one: its angle as travel at the
+/// profile's lever, extending to the left.
 
 #include <array>
 #include <cstdint>
@@ -39,8 +40,9 @@ struct CylinderSeries {
 
 /// A stretch of a log without a gap.
 struct LogSegment {
-  double begin_s = 0.0;  ///< The log's own time of the first grid point.
-  std::array<CylinderSeries, kAxisCount> axis;
+  double begin_s = 0.0;             ///< The log's own time of the first grid point.
+  std::size_t drives = kAxisCount;  ///< Series of `axis` that there are.
+  std::array<CylinderSeries, kDriveCount> axis;
   std::array<std::vector<double>, kPumpCount> swash;  ///< Of full swash.
   std::vector<double> engine_radps;
   bool senses_spools = false;  ///< Else `spool` is the duty.
@@ -74,17 +76,20 @@ class LogCollector {
   /// Frames of other buses are counted, those with a wrong length or checksum refused. Throws as
   /// read_machine_log().
   void take(const LoggedFrame& frame);
-  [[nodiscard]] MachineLog log(int pump_count);
+  /// Of a machine with so many pumps; its swing with that lever, without a swing 0.
+  [[nodiscard]] MachineLog log(int pump_count, double swing_lever_m = 0.0);
 
  private:
   class Frames;
   std::unique_ptr<Frames> frames_;
 };
 
-/// Reads a log, plain or gzip; `pump_count` of the machine. Throws std::runtime_error that names
+/// Reads a log, plain or gzip; `pump_count` and `swing_lever_m` (0: no swing) of the machine. A log
+/// without SwingState says nothing of a swing. Throws std::runtime_error that names
 /// file, line and reason: unreadable, cut off, not candump, no frame of an excavator, another DBC
 /// version, a dozer's bus, two machines on one bus, too many damaged
 /// frames, a signal that is missing or often has no value, less than 5 s in one piece.
-[[nodiscard]] MachineLog read_machine_log(const std::filesystem::path& file, int pump_count);
+[[nodiscard]] MachineLog read_machine_log(const std::filesystem::path& file, int pump_count,
+                                          double swing_lever_m = 0.0);
 
 }  // namespace graben::identify

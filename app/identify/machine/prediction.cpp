@@ -12,6 +12,7 @@ constexpr std::size_t kHalf = 5;
 static_assert(2.0 * kHalf * kGrid_s == kSpeedWindow_s);
 /// Cushions begin here.
 constexpr double kEnds_m = 0.06;
+constexpr double kPlatformSwings_s = 0.1;
 
 /// Share of what is left that a first-order lag makes up in a grid step.
 double share_of(double lag_s) { return lag_s > 0.0 ? 1.0 - std::exp(-kGrid_s / lag_s) : 1.0; }
@@ -60,9 +61,14 @@ class SpoolModel {
   double spool_ = 0.0;
 };
 
+/// Both know them.
+std::size_t drives_of(const DriveModel& model, const LogSegment& segment) {
+  return std::min(model.drives(), segment.drives);
+}
+
 ValveMoment moment_of(const DriveModel& model, const LogSegment& segment, std::size_t at) {
   ValveMoment moment;
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < drives_of(model, segment); ++k) {
     moment.cap_pa[k] = segment.axis[k].cap_pa[at] - model.cap_zero_pa[k];
     moment.rod_pa[k] = segment.axis[k].rod_pa[at] - model.rod_zero_pa[k];
   }
@@ -85,13 +91,15 @@ double slope(const std::vector<double>& position_m, std::size_t at) {
   return sum / square / kGrid_s;
 }
 
-void compare(const CylinderSeries& series, const std::vector<double>& way_m, double most_m,
+void compare(const CylinderSeries& series, const std::vector<double>& way_m, const DriveRow& drive,
              PredictedAxis& axis) {
   const std::vector<double>& stroke_m = series.stroke_m;
   const std::size_t size = stroke_m.size();
   axis.predicted_mps.assign(size, 0.0);
   axis.measured_mps.assign(size, 0.0);
   axis.judged.assign(size, false);
+  // A platform goes on by its mass, whatever its valve says.
+  const double swings_s = drive.control.has_end_stops ? kSwings_s : kPlatformSwings_s;
   double neutral_s = kSwings_s;
   for (std::size_t at = 0; at < size; ++at) {
     neutral_s = series.duty[at] != 0.0 ? 0.0 : neutral_s + kGrid_s;
@@ -100,25 +108,26 @@ void compare(const CylinderSeries& series, const std::vector<double>& way_m, dou
     }
     axis.predicted_mps[at] = slope(way_m, at);
     axis.measured_mps[at] = slope(stroke_m, at);
-    axis.judged[at] =
-        neutral_s < kSwings_s && stroke_m[at] > kEnds_m && stroke_m[at] < most_m - kEnds_m;
+    axis.judged[at] = neutral_s < swings_s && stroke_m[at] > drive.least_travel_m + kEnds_m &&
+                      stroke_m[at] < drive.most_travel_m - kEnds_m;
   }
 }
 
 PredictedSegment predict(const DriveModel& model, const LogSegment& segment) {
+  const std::size_t drives = drives_of(model, segment);
   std::vector<SpoolModel> spools;
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < drives; ++k) {
     spools.emplace_back(model.drive[k].answer);
   }
-  std::array<double, kAxisCount> speed_mps{};
-  std::array<std::vector<double>, kAxisCount> way_m;
+  std::array<double, kDriveCount> speed_mps{};
+  std::array<std::vector<double>, kDriveCount> way_m;
   for (std::size_t at = 0; at < segment.size(); ++at) {
     ValveMoment moment = moment_of(model, segment, at);
-    for (std::size_t k = 0; k < kAxisCount; ++k) {
+    for (std::size_t k = 0; k < drives; ++k) {
       moment.opening[k] = spools[k].step(segment.axis[k].duty, at);
     }
-    const std::array<double, kAxisCount> wanted_mps = model.speeds_mps(moment);
-    for (std::size_t k = 0; k < kAxisCount; ++k) {
+    const std::array<double, kDriveCount> wanted_mps = model.speeds_mps(moment);
+    for (std::size_t k = 0; k < drives; ++k) {
       const double way = wanted_mps[k] != 0.0 ? wanted_mps[k] : speed_mps[k];
       speed_mps[k] += share_of(spools[k].rest_s(way)) * (wanted_mps[k] - speed_mps[k]);
       const double before_m = way_m[k].empty() ? 0.0 : way_m[k].back();
@@ -126,8 +135,8 @@ PredictedSegment predict(const DriveModel& model, const LogSegment& segment) {
     }
   }
   PredictedSegment predicted;
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
-    compare(segment.axis[k], way_m[k], model.drive[k].most_travel_m, predicted.axis[k]);
+  for (std::size_t k = 0; k < drives; ++k) {
+    compare(segment.axis[k], way_m[k], model.drive[k], predicted.axis[k]);
   }
   return predicted;
 }

@@ -28,7 +28,8 @@ struct PredictedAxis {
 };
 
 struct PredictedSegment {
-  std::array<PredictedAxis, kAxisCount> axis;
+  /// Of drives that the machine has not: empty.
+  std::array<PredictedAxis, kDriveCount> axis;
 };
 
 inline constexpr double kSpeedWindow_s = 0.10;

@@ -10,6 +10,7 @@
 #include "app/identify/machine/machine_fit.hpp"
 #include "app/identify/machine/median.hpp"
 #include "app/identify/machine/spool_answer.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::identify {
 namespace {
@@ -172,12 +173,14 @@ SideScore score_side(const Samples& samples) {
 }
 
 std::string side_text(std::size_t k, bool extends) {
-  return fmt::format("the {}, {}", kAxisTexts[k], extends ? "extending" : "retracting");
+  const char* const way = k == kSwing ? (extends ? "to the left" : "to the right")
+                                      : (extends ? "extending" : "retracting");
+  return fmt::format("the {}, {}", kAxisTexts[k], way);
 }
 
 template <class Each>
 void for_each_side(const PredictionScore& score, const Each& each) {
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < kDriveCount; ++k) {
     each(k, true, score.axis[k].extend);
     each(k, false, score.axis[k].retract);
   }
@@ -202,11 +205,14 @@ double PredictionScore::share() const {
 PredictionScore score(const std::vector<std::vector<PredictedSegment>>& predicted,
                       const std::vector<LogStretch>& stretches) {
   PredictionScore total;
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < kDriveCount; ++k) {
     Samples extend;
     Samples retract;
     for (const LogStretch& stretch : stretches) {
-      take(predicted[stretch.log][stretch.segment].axis[k], stretch, extend, retract);
+      const PredictedAxis& axis = predicted[stretch.log][stretch.segment].axis[k];
+      if (!axis.judged.empty()) {
+        take(axis, stretch, extend, retract);
+      }
     }
     AxisScore& axis = total.axis[k];
     axis.extend = score_side(extend);
@@ -219,14 +225,14 @@ PredictionScore score(const std::vector<std::vector<PredictedSegment>>& predicte
 
 DriveEstimates spool_answers(const DriveModel& model, const std::vector<MachineLog>& logs) {
   DriveEstimates found = estimate_of(model).drive;
-  for (int axis = 0; axis < kAxisCount; ++axis) {
+  for (int axis = 0; axis < static_cast<int>(model.drives()); ++axis) {
     find_spool_answer(logs, axis, found[static_cast<std::size_t>(axis)]);
   }
   return found;
 }
 
 void judge_spools(const DriveModel& model, const DriveEstimates& found, PredictionScore& score) {
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < kDriveCount; ++k) {
     for (const bool extends : {true, false}) {
       const Estimate& dead_time_s = found[k].side(extends).dead_time_s;
       SideScore& side = score.axis[k].side(extends);
@@ -268,11 +274,18 @@ std::vector<std::string> score_sentences(const PredictionScore& score) {
 std::vector<std::string> unjudged_sides(const PredictionScore& score) {
   std::vector<std::string> all;
   for_each_side(score, [&](std::size_t k, bool extends, const SideScore& side) {
-    if (!side.has_ratio) {
+    if (!side.has_ratio && (k != kSwing || score.axis[k].speed_mps2 > 0.0)) {
       all.push_back(side_text(k, extends));
     }
   });
   return all;
+}
+
+bool any_judged(const PredictionScore& score) {
+  bool any = false;
+  for_each_side(score,
+                [&](std::size_t, bool, const SideScore& side) { any = any || side.has_ratio; });
+  return any;
 }
 
 double most_off(const PredictionScore& score) {

@@ -35,7 +35,7 @@ struct AxisScore {
 };
 
 struct PredictionScore {
-  std::array<AxisScore, kAxisCount> axis;
+  std::array<AxisScore, kDriveCount> axis;
 
   /// Of all axes that moved: root of the mean square of their shares.
   [[nodiscard]] double share() const;
@@ -66,12 +66,16 @@ inline constexpr double kLateWorth_s = 0.020;
 /// 8 % slower than the profile says".
 [[nodiscard]] std::vector<std::string> score_sentences(const PredictionScore& score);
 
-/// "the arm, extending": sides that have no ratio.
+/// "the arm, extending": sides that have no ratio; of a swing that did not move nothing is said.
 [[nodiscard]] std::vector<std::string> unjudged_sides(const PredictionScore& score);
+
+/// Some side has a ratio.
+[[nodiscard]] bool any_judged(const PredictionScore& score);
 
 /// Largest difference of a speed from its prediction, as a share of it; of sides that have a ratio.
 [[nodiscard]] double most_off(const PredictionScore& score);
 
-inline constexpr std::array<const char*, kAxisCount> kAxisTexts = {"boom", "arm", "bucket"};
+inline constexpr std::array<const char*, kDriveCount> kAxisTexts = {"boom", "arm", "bucket",
+                                                                    "swing"};
 
 }  // namespace graben::identify

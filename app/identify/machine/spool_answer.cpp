@@ -274,7 +274,7 @@ void find_spool_answer(const std::vector<MachineLog>& logs, int axis, DriveEstim
   for (const MachineLog& log : logs) {
     for (const LogSegment& segment : log.segments) {
       const CylinderSeries& series = segment.axis[static_cast<std::size_t>(axis)];
-      if (!segment.senses_spools || series.duties.empty()) {
+      if (!segment.senses_spools || series.duties.empty() || series.spools.empty()) {
         continue;
       }
       duties.emplace_back(series.duties);

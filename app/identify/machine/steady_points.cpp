@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/identify/machine/clipped_pressure.hpp"
+#include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::identify {
 namespace {
@@ -19,6 +20,10 @@ constexpr std::size_t kSettles = 30;
 constexpr double kSpoolSteady = 0.04;
 constexpr double kSpeedSteady_mps = 0.006;
 constexpr double kSpeedSteady = 0.08;
+/// A platform takes seconds to its speed, and its pressures say what pushes it meanwhile: its spool
+/// may go on opening, and its angle is finer than a stroke.
+constexpr double kSwingSpoolSteady = 0.12;
+constexpr double kSwingNoise_mps = 0.0004;
 /// Cushions begin here.
 constexpr double kEnds_m = 0.06;
 /// A spool nearer to its middle says nothing of its side.
@@ -62,15 +67,16 @@ double spread(const std::vector<double>& values, std::size_t at, std::size_t bef
   return *most - *least;
 }
 
-bool is_steady(const LogSegment& segment, std::size_t axis, std::size_t at, double stroke_most_m) {
+bool is_steady(const LogSegment& segment, std::size_t axis, std::size_t at, const DriveRow& drive) {
   const CylinderSeries& series = segment.axis[axis];
   const double stroke_m = series.stroke_m[at];
-  if (stroke_m < kEnds_m || stroke_m > stroke_most_m - kEnds_m ||
+  if (stroke_m < drive.least_travel_m + kEnds_m || stroke_m > drive.most_travel_m - kEnds_m ||
       std::abs(series.spool[at]) < kAside || segment.engine_radps[at] <= 0.0) {
     return false;
   }
-  for (std::size_t other = 0; other < kAxisCount; ++other) {
-    if (spread(segment.axis[other].spool, at, kSettles) > kSpoolSteady) {
+  for (std::size_t other = 0; other < segment.drives; ++other) {
+    const double most = axis == kSwing && other == kSwing ? kSwingSpoolSteady : kSpoolSteady;
+    if (spread(segment.axis[other].spool, at, kSettles) > most) {
       return false;
     }
   }
@@ -78,11 +84,11 @@ bool is_steady(const LogSegment& segment, std::size_t axis, std::size_t at, doub
   return std::abs(bend(series.stroke_m, at)) < kSpeedSteady_mps + kSpeedSteady * speed_mps;
 }
 
-SteadyPoint point_of(const LogSegment& segment, const std::array<double, kAxisCount>& noise_pa,
+SteadyPoint point_of(const LogSegment& segment, const std::array<double, kDriveCount>& noise_pa,
                      std::size_t axis, std::size_t at) {
   SteadyPoint point;
   point.axis = static_cast<int>(axis);
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < segment.drives; ++k) {
     const CylinderSeries& series = segment.axis[k];
     point.all_spool[k] = mean(series.spool, at);
     point.all_speed_mps[k] = slope(series.stroke_m, at);
@@ -96,7 +102,8 @@ SteadyPoint point_of(const LogSegment& segment, const std::array<double, kAxisCo
   point.spool = point.all_spool[axis];
   point.speed_mps = point.all_speed_mps[axis];
   point.stroke_m = segment.axis[axis].stroke_m[at];
-  point.speed_spread_mps = kSpeedNoise_mps + 0.5 * std::abs(bend(segment.axis[axis].stroke_m, at));
+  point.speed_spread_mps = (axis == kSwing ? kSwingNoise_mps : kSpeedNoise_mps) +
+                           0.5 * std::abs(bend(segment.axis[axis].stroke_m, at));
   return point;
 }
 
@@ -105,16 +112,16 @@ SteadyPoint point_of(const LogSegment& segment, const std::array<double, kAxisCo
 std::vector<SteadyPoint> steady_points(const std::vector<MachineLog>& logs,
                                        const DriveModel& model) {
   std::vector<SteadyPoint> points;
-  std::array<double, kAxisCount> noise_pa{};
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+  std::array<double, kDriveCount> noise_pa{};
+  for (std::size_t axis = 0; axis < kDriveCount; ++axis) {
     noise_pa[axis] = pressure_noise_pa(logs, axis);
   }
   std::size_t block = 0;
   for (const MachineLog& log : logs) {
     for (const LogSegment& segment : log.segments) {
       for (std::size_t at = kSettles; at + kHalf < segment.size(); at += kEvery) {
-        for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
-          if (is_steady(segment, axis, at, model.drive[axis].most_travel_m)) {
+        for (std::size_t axis = 0; axis < segment.drives; ++axis) {
+          if (is_steady(segment, axis, at, model.drive[axis])) {
             points.push_back(point_of(segment, noise_pa, axis, at));
             points.back().block = block + at / kBlock;
           }

@@ -18,10 +18,10 @@ struct SteadyPoint {
   double spool = 0.0;  ///< Of the travel; its sign is the side.
   double speed_mps = 0.0;
   double speed_spread_mps = 0.0;  ///< What speed and sensor leave open.
-  std::array<double, kAxisCount> all_spool{};
-  std::array<double, kAxisCount> all_speed_mps{};
-  std::array<double, kAxisCount> cap_pa{};
-  std::array<double, kAxisCount> rod_pa{};
+  std::array<double, kDriveCount> all_spool{};
+  std::array<double, kDriveCount> all_speed_mps{};
+  std::array<double, kDriveCount> cap_pa{};
+  std::array<double, kDriveCount> rod_pa{};
   std::array<double, kPumpCount> swash{};
   double engine_radps = 0.0;
   double stroke_m = 0.0;

@@ -15,10 +15,10 @@
 namespace graben::identify {
 namespace {
 
-constexpr std::size_t kSides = 2 * kAxisCount;
+constexpr std::size_t kSides = 2 * kDriveCount;
 // Among all values: sides one after the other, then zeros, then pumps.
 constexpr std::size_t kZerosAt = kSides * kSideSize;
-constexpr std::size_t kPumpsAt = kZerosAt + kAxisCount * kZeroSize;
+constexpr std::size_t kPumpsAt = kZerosAt + kDriveCount * kZeroSize;
 constexpr std::size_t kAll = kPumpsAt + kPumpCount;
 using Square = Eigen::Matrix<double, kAll, kAll>;
 using Row = Eigen::Matrix<double, kAll, 1>;
@@ -48,15 +48,15 @@ std::size_t side_of(int axis, bool extends) {
 
 struct Blocks {
   std::array<std::array<double, kSideSize>, kSides> side{};
-  std::array<std::array<double, kZeroSize>, kAxisCount> zero{};
+  std::array<std::array<double, kZeroSize>, kDriveCount> zero{};
   std::array<std::array<double, 1>, kPumpCount> pump{};
 };
 
 class Fit {
  public:
   Fit(const std::vector<PreparedPoint>& points, const ValvePriors& priors,
-      const MachineEstimate& machine)
-      : points_(points), priors_(priors) {
+      const MachineEstimate& machine, std::size_t drives)
+      : points_(points), priors_(priors), drives_(drives) {
     start(machine);
     spread_.resize(points.size());
     for (std::size_t n = 0; n < points.size(); ++n) {
@@ -134,6 +134,7 @@ class Fit {
 
   const std::vector<PreparedPoint>& points_;
   ValvePriors priors_;
+  std::size_t drives_;
   Blocks blocks_;
   std::vector<PointSpread> spread_;
   ceres::Problem problem_;
@@ -141,7 +142,7 @@ class Fit {
 };
 
 void Fit::start(const MachineEstimate& machine) {
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+  for (std::size_t axis = 0; axis < drives_; ++axis) {
     const DriveEstimate& drive = machine.drive[axis];
     for (const bool extends : {true, false}) {
       const SideEstimate& side = drive.side(extends);
@@ -197,7 +198,7 @@ void Fit::weigh() {
 }
 
 void Fit::add_priors(const MachineEstimate& machine) {
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+  for (std::size_t axis = 0; axis < drives_; ++axis) {
     const DriveEstimate& drive = machine.drive[axis];
     for (const bool extends : {true, false}) {
       const SideEstimate& from = drive.side(extends);
@@ -223,12 +224,12 @@ void Fit::add_priors(const MachineEstimate& machine) {
 }
 
 /// Where a block's values stand among all.
-std::map<const double*, std::size_t> places_of(const Blocks& blocks) {
+std::map<const double*, std::size_t> places_of(const Blocks& blocks, std::size_t drives) {
   std::map<const double*, std::size_t> places;
-  for (std::size_t side = 0; side < kSides; ++side) {
+  for (std::size_t side = 0; side < 2 * drives; ++side) {
     places[blocks.side[side].data()] = side * kSideSize;
   }
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+  for (std::size_t axis = 0; axis < drives; ++axis) {
     places[blocks.zero[axis].data()] = kZerosAt + axis * kZeroSize;
   }
   for (std::size_t j = 0; j < kPumpCount; ++j) {
@@ -241,7 +242,7 @@ std::map<const double*, std::size_t> places_of(const Blocks& blocks) {
 /// that the model is not the machine: H^-1 (sum of g g^T over blocks of time) H^-1. Added up, the
 /// second is never taken for less than the first.
 void Fit::find_covariance() {
-  const auto places = places_of(blocks_);
+  const auto places = places_of(blocks_, drives_);
   Square curvature = Square::Zero();
   std::map<std::size_t, Row> gradient;
   std::vector<ceres::ResidualBlockId> ids;
@@ -274,6 +275,10 @@ void Fit::find_covariance() {
   Square gradients = Square::Zero();
   for (const auto& [block, each] : gradient) {
     gradients += each * each.transpose();
+  }
+  // A drive that the machine has not.
+  for (Eigen::Index at = 0; at < curvature.rows(); ++at) {
+    curvature(at, at) = curvature(at, at) == 0.0 ? 1.0 : curvature(at, at);
   }
   const Square inverse = curvature.ldlt().solve(Square::Identity());
   covariance_ = inverse + inverse * gradients * inverse;
@@ -329,7 +334,7 @@ void Fit::tell(const DriveModel& model, MachineEstimate& machine) const {
       most[side] = std::max(most[side], travel);
     }
   }
-  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+  for (std::size_t axis = 0; axis < drives_; ++axis) {
     DriveEstimate& drive = machine.drive[axis];
     for (const bool extends : {true, false}) {
       const std::size_t side = side_of(static_cast<int>(axis), extends);
@@ -363,7 +368,7 @@ void fit_valves(const DriveModel& model, const std::vector<SteadyPoint>& points,
   for (const SteadyPoint& point : points) {
     prepared.emplace_back(model, point, machine.drive[static_cast<std::size_t>(point.axis)]);
   }
-  Fit fit(prepared, priors, machine);
+  Fit fit(prepared, priors, machine, model.drives());
   fit.solve();
   fit.tell(model, machine);
 }

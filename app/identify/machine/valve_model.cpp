@@ -24,7 +24,7 @@ constexpr double kSays_pa = 1.0e6;
 /// The speeds as the valve's model takes them: along their spools, or none.
 McvInput input_at(const DriveModel& model, const SteadyPoint& point, double own_mps) {
   McvInput input;
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < model.drives(); ++k) {
     const bool own = static_cast<int>(k) == point.axis;
     const double speed_mps = own ? own_mps : point.all_speed_mps[k];
     const bool with_spool = own || speed_mps * point.all_spool[k] > 0.0;

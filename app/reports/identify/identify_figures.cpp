@@ -25,7 +25,7 @@ double without_sign_of_0(double value, double step) {
 
 /// Whether a row that is shown has a figure that is not there.
 bool has_open(const std::vector<ScoreColumn>& columns) {
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < kDriveCount; ++k) {
     for (const bool extends : {true, false}) {
       for (const ScoreColumn& column : columns) {
         const SideScore& side = column.score->axis[k].side(extends);
@@ -40,8 +40,7 @@ bool has_open(const std::vector<ScoreColumn>& columns) {
 }
 
 std::string side_row(const std::vector<ScoreColumn>& columns, std::size_t k, bool extends) {
-  std::string row = fmt::format(
-      "{:<16}", fmt::format("{}, {}", kAxisTexts[k], machines::kSideNames[extends ? 0 : 1]));
+  std::string row = fmt::format("{:<16}", machines::side_name(static_cast<int>(k), extends));
   for (const ScoreColumn& column : columns) {
     const SideScore& side = column.score->axis[k].side(extends);
     row += fmt::format("  {:>8.1f} {:>7.3f}", 1e3 * side.rms_mps, side.r2);
@@ -63,15 +62,37 @@ ordered_json side_json(const SideScore& side) {
 
 ordered_json score_json(const PredictionScore& score) {
   ordered_json axes;
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < kDriveCount; ++k) {
+    if (k == kSwing && score.axis[k].speed_mps2 == 0.0) {
+      continue;
+    }
     axes[kAxisTexts[k]]["error_share"] = score.axis[k].share();
     for (const bool extends : {true, false}) {
       const SideScore& side = score.axis[k].side(extends);
-      axes[kAxisTexts[k]][machines::kSideNames[extends ? 0 : 1]] =
+      axes[kAxisTexts[k]][machines::side_word(static_cast<int>(k), extends)] =
           side.moving_s > 0.0 ? side_json(side) : ordered_json();
     }
   }
   return {{"error_share", score.share()}, {"axes", axes}};
+}
+
+ordered_json coast_json(const identify::SwingCoast& coast) {
+  return coast.known ? ordered_json{{"from_radps", coast.from_radps},
+                                    {"angle_rad", coast.angle_rad},
+                                    {"time_s", coast.time_s},
+                                    {"most_pa", coast.most_pa}}
+                     : ordered_json();
+}
+
+ordered_json swing_json(const identify::SwingFigures& swing) {
+  const auto value = [](const identify::Estimate& of) {
+    return of.known ? ordered_json{{"value", of.value}, {"deviation", of.deviation}}
+                    : ordered_json();
+  };
+  return {{"inertia_kgm2", value(swing.inertia_kgm2)},
+          {"friction_nm", value(swing.friction_nm)},
+          {"coasts_left", coast_json(swing.left)},
+          {"coasts_right", coast_json(swing.right)}};
 }
 
 }  // namespace
@@ -86,7 +107,7 @@ std::string prediction_table(const std::vector<ScoreColumn>& columns) {
     text += fmt::format("  {:>8} {:>7} {:>7} {:>6}", "RMS mm/s", "R2", "speed %", "ms");
   }
   text += "\n";
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < kDriveCount; ++k) {
     for (const bool extends : {true, false}) {
       if (columns.front().score->axis[k].side(extends).moving_s > 0.0) {
         text += side_row(columns, k, extends);
@@ -133,6 +154,9 @@ std::string identify_json(const IdentifyReport& report) {
                               {"before", change.before},
                               {"after", change.after},
                               {"deviation", change.deviation}});
+  }
+  if (report.machine.profile.has_swing()) {
+    json["swing"] = swing_json(report.fit.machine.swing);
   }
   json["missing"] = report.fit.machine.missing;
   // A byte of a file's name that is no UTF-8 must not cost the figures.

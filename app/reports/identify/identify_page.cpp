@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/identify/file/identified_file.hpp"
+#include "app/identify/machine/swing_figures.hpp"
 #include "app/identify/machine/valve_model.hpp"
 #include "app/machines/answer_section.hpp"
 #include "app/reports/identify/identify_report.hpp"
@@ -68,8 +69,7 @@ std::string curve_plot(const IdentifyReport& report, const DriveRow& drive,
                        const std::vector<identify::CurvePoint>& points, int axis, bool extends) {
   const auto k = static_cast<std::size_t>(axis);
   const SideEstimate& side = report.fit.machine.drive[k].side(extends);
-  const std::string name =
-      fmt::format("{}, {}", kAxisTexts[k], machines::kSideNames[extends ? 0 : 1]);
+  const std::string name = machines::side_name(axis, extends);
   PlotPoints dots;
   for (const identify::CurvePoint& point : points) {
     if (point.axis == axis && point.extends == extends) {
@@ -170,7 +170,7 @@ std::string value_table(const IdentifyReport& report) {
 
 std::vector<std::string> unexplained(const IdentifyReport& report) {
   std::vector<std::string> items;
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < kDriveCount; ++k) {
     const identify::AxisScore& axis = report.fit.left_out.axis[k];
     if (axis.speed_mps2 > 0.0) {
       items.push_back(fmt::format("{}: {:.1f} % of its speed, RMS (the old profile: {:.1f} %)",
@@ -187,7 +187,7 @@ std::vector<std::string> unexplained(const IdentifyReport& report) {
 std::string curves(const IdentifyReport& report, const identify::DriveModel& old) {
   const auto points = identify::curve_points(old, report.logs, report.fit.machine);
   std::string html = "<div class=\"plots\">\n";
-  for (int axis = 0; axis < kAxisCount; ++axis) {
+  for (int axis = 0; axis < static_cast<int>(old.drives()); ++axis) {
     for (const bool extends : {true, false}) {
       html += curve_plot(report, old.drive[static_cast<std::size_t>(axis)], points, axis, extends);
     }
@@ -202,7 +202,8 @@ std::string identify_page(const IdentifyReport& report) {
   const Predicted was = predict_logs(old, report.logs);
   const Predicted is = predict_logs(identify::DriveModel(report.fit.profile), report.logs);
   std::string motion;
-  for (std::size_t k = 0; k < kAxisCount; ++k) {
+  for (std::size_t k = 0; k < old.drives() && k < report.logs.front().segments.front().drives;
+       ++k) {
     motion += motion_plot(report, was, is, k);
   }
   const std::string table =
@@ -217,6 +218,10 @@ std::string identify_page(const IdentifyReport& report) {
                           report.fit.judged_s, report.fit.fitted_s),
               "<pre tabindex=\"0\" role=\"region\" aria-label=\"Errors of the prediction\">" +
                   html_escaped(table) + "</pre>\n");
+  if (const auto swing = identify::swing_sentences(report.fit.machine.swing); !swing.empty()) {
+    html +=
+        section("The platform", "By its motor's pressures and its acceleration.", listed(swing));
+  }
   html += section("Opening curves",
                   "<span class=\"key n\">new</span> with its 95 % band, <span class=\"key "
                   "o\">old</span>, <span class=\"key d\">moments of steady motion</span>.",

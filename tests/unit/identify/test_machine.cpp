@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is found of a machine from its log: curves, dead times, lags, zeros.
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
 #include "app/identify/machine/identified_profile.hpp"
+#include "app/identify/machine/log_checks.hpp"
 #include "app/identify/machine/machine_fit.hpp"
+#include "app/identify/machine/swing_figures.hpp"
 #include "app/machines/simulated/hidden.hpp"
 #include "app/runs/commission_run.hpp"
 #include "app/runs/drive_speeds.hpp"
@@ -107,6 +110,49 @@ TEST(what_is_not_driven_is_said) {
   assert_int_equal(better.valve.answer[kBucket].extend.spool_to_duty.size(), 0);
   assert_near(better.valve.spool[kBucket].extend_in_m2,
               machine.profile.valve.spool[kBucket].extend_in_m2, 0.0);
+}
+
+/// Of a machine with a swing all of it is found, and what was not driven is said.
+TEST(a_swing_is_found) {
+  const machines::SimulatedExcavator machine = runs::hidden_with_noise(test::excavator_12t(), 5);
+  const ExcavatorProfile& profile = machine.profile;
+  runs::CommissionOptions options = runs::usual_commission(machine);
+  options.sequence.drives = {false, false, false};
+  LogCollector frames("bus");
+  const auto run = runs::run_commission(
+      machine, options, [&](const LoggedFrame& frame) { frames.take(frame); }, nothing);
+  assert_int_equal(run.end, runs::CommissionEnd::kDone);
+  const std::vector<MachineLog> logs = {frames.log(profile.pump_count, swing_lever_m(profile))};
+  const auto& angles_m = logs[0].segments[0].axis[kSwing].stroke_m;
+  const auto [right, left] = std::minmax_element(angles_m.begin(), angles_m.end());
+  assert_true(*right > options.sequence.sector.right_rad * profile.swing.lever_m);
+  assert_true(*left < options.sequence.sector.left_rad * profile.swing.lever_m);
+  assert_true(*left - *right > 0.4 * profile.swing.lever_m);
+  MachineEstimate found = identify_machine(DriveModel(profile), logs, nothing);
+  found.swing = find_swing(profile, logs);
+  const machines::DriveTruth truth = machines::truth_of(machine.plant).drive[kSwing];
+  for (const bool left_side : {true, false}) {
+    const SideEstimate& side = found.drive[kSwing].side(left_side);
+    const machines::SideTruth& truly = left_side ? truth.extend : truth.retract;
+    assert_true(side.edge.known);
+    assert_near(side.dead_time_s.value, truly.dead_time_s, 0.010);
+    const auto known = runs::known_machine(profile, machines::truth_of(machine.plant));
+    assert_true(runs::swing_speed_error(profile, found, known, left_side) < 0.06);
+    const SwingCoast& coast = left_side ? found.swing.left : found.swing.right;
+    assert_true(coast.known && coast.angle_rad > 0.05 && coast.angle_rad < 0.5);
+    assert_true(coast.most_pa > 5e6);
+  }
+  assert_near(found.drive[kSwing].lag_s(), truth.extend.lag_s, 0.010);
+  assert_true(found.swing.inertia_kgm2.known);
+  bool said = false;
+  for (const std::string& each : found.missing) {
+    said = said || each.find("boom, extend: was not driven") != std::string::npos;
+    assert_true(each.find("swing, left: was not driven") == std::string::npos);
+  }
+  assert_true(said);
+  const ExcavatorProfile better = identified(profile, found);
+  assert_true(better.valve.answer[kSwing].extend.spool_to_duty.size() > 2);
+  assert_near(better.swing.inertia_kgm2, found.swing.inertia_kgm2.value, 0.0);
 }
 
 TEST(a_log_that_says_nothing_is_refused) {

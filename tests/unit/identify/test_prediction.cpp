@@ -43,7 +43,7 @@ TEST(speeds_are_those_that_need_these_openings) {
   const std::array<ValveMoment, 4> moments = {moment(0.5, 0.0, 0.0), moment(0.0, -0.4, 0.0),
                                               moment(0.45, 0.5, -0.3), moment(-0.3, 0.35, 0.4)};
   for (const ValveMoment& now : moments) {
-    const std::array<double, kAxisCount> speed_mps = DriveModel(machine()).speeds_mps(now);
+    const std::array<double, kDriveCount> speed_mps = DriveModel(machine()).speeds_mps(now);
     McvInput input;
     for (std::size_t k = 0; k < kAxisCount; ++k) {
       assert_true((speed_mps[k] != 0.0) == (now.opening[k] != 0.0));
