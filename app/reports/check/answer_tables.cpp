@@ -12,7 +12,8 @@ namespace {
 std::string milliseconds(double time_s) { return fmt::format("{:.0f}", 1e3 * time_s); }
 
 std::string percents(const machines::DrivenRange& range) {
-  return fmt::format("{:.0f} .. {:.0f}", 100.0 * range.least, 100.0 * range.most);
+  return range.said ? fmt::format("{:.0f} .. {:.0f}", 100.0 * range.least, 100.0 * range.most)
+                    : std::string("-");
 }
 
 }  // namespace
@@ -24,7 +25,8 @@ FactTable answer_table(const machines::ExcavatorMachine& machine) {
        "time constant, ms", "settles, ms", "driven, %"},
       {},
       "duties, in shares of the spool's travel; what the profile does not say of a side "
-      "is the whole valve's"};
+      "is the whole valve's; " +
+          machines::commissioned_text(machine.driven, machine.profile.drive_count)};
   const ExcavatorBank bank = excavator_bank(machine.profile);
   for (int drive = 0; drive < bank.count; ++drive) {
     const auto k = static_cast<unsigned>(drive);
@@ -34,11 +36,10 @@ FactTable answer_table(const machines::ExcavatorMachine& machine) {
         return fmt::format("{:.1f}", 100.0 * answer.spool_to_duty.at(opening));
       };
       table.rows.push_back(
-          {fmt::format("{}, {}", machines::kDriveNames[k], machines::kSideNames[extends ? 0 : 1]),
-           percent(0.0), percent(0.5), percent(1.0), fmt::format("{}", answer.spool_to_duty.size()),
-           milliseconds(answer.dead_time_s), milliseconds(answer.lag_s),
-           milliseconds(answer.spool_time_constant_s), milliseconds(bank.row[k].watch.settle_s),
-           percents(machine.driven[k].side(extends))});
+          {machines::side_name(drive, extends), percent(0.0), percent(0.5), percent(1.0),
+           fmt::format("{}", answer.spool_to_duty.size()), milliseconds(answer.dead_time_s),
+           milliseconds(answer.lag_s), milliseconds(answer.spool_time_constant_s),
+           milliseconds(bank.row[k].watch.settle_s), percents(machine.driven[k].side(extends))});
     }
   }
   return table;

@@ -118,12 +118,18 @@ def answers(graben, folder, scratch):
         text = (folder / f"{EXCAVATOR}{file}.toml").read_text(encoding="utf-8")
         (scratch / f"told{file}.toml").write_text(text if file else text + ANSWER, encoding="utf-8")
     done = check(graben, scratch / "told.toml", scratch, "--strict")
-    for row in ("boom, extend 20.0 60.0 100.0 2 0 53 20 334 0 .. 100",
+    for row in ("boom, extend 20.0 60.0 100.0 2 0 53 20 334 -",
                 "boom, retract 21.2 50.0 95.0 3 180 70 90 334 42 .. 90",
-                "arm, extend 20.0 60.0 100.0 2 0 53 20 100 0 .. 100",
+                "arm, extend 20.0 60.0 100.0 2 0 53 20 100 -",
                 "valve.answer.boom.retract.lag 0.004 drive.log, 2026-11-24", "control.law - tried"):
         if done.returncode != 0 or row not in re.sub(r" +", " ", done.stdout):
             yield f"without '{row}': status {done.returncode}: {done.stdout}{done.stderr}"
+    rest = "not commissioned: boom, extend; arm, extend; arm, retract; bucket, extend; bucket, retract"
+    if rest not in " ".join(done.stdout.split()):
+        yield f"without '{rest}': {done.stdout}"
+    swinging = " ".join(check(graben, "excavator_12t", scratch).stdout.split())
+    if "not commissioned: no side of any drive" not in swinging or "swing, right 20.0" not in swinging:
+        yield f"a swing without its sides, or without a word of commissioning: {swinging}"
 
 
 def tilts(graben, scratch):
