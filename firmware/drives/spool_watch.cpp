@@ -50,14 +50,12 @@ void fall_behind(double spool_ratio, int cycles, SpoolState& state) {
 /// It is no longer behind.
 Fault caught_up(double spool_ratio, double tolerance, SpoolState& state) {
   const bool came = std::abs(spool_ratio) - std::abs(state.behind_at_ratio) > tolerance;
-  Fault fault = Fault::kNone;
-  if (came && state.stood_cycles >= kSpoolWrongCycles) {
-    fault = Fault::kSpoolLate;
-  } else if (came) {
+  const bool stood = state.stood_cycles >= kSpoolWrongCycles;
+  if (came && !stood) {
     state.later_cycles = std::min(state.later_cycles + state.behind_cycles, kSpoolBehindCycles);
   }
   state.behind_cycles = 0;
-  return fault;
+  return came && stood ? Fault::kSpoolLate : Fault::kNone;
 }
 
 /// Wrong for long enough, and not on its way to where it should be.
@@ -155,10 +153,10 @@ FaultSet watch_spools(DriveRows drives, const SentCommand& sent, Span<const Vali
   FaultSet faults;
   for (int i = 0; i < drives.count(); ++i) {
     if (drives[i].watch.senses_spool) {
-      const Fault fault = follow(drives[i], sent, i, seen[i].spool_ratio, feedback.cycles,
+      const Fault found = follow(drives[i], sent, i, seen[i].spool_ratio, feedback.cycles,
                                  feedback.received, spool[i]);
-      if (fault != Fault::kNone) {
-        faults.add(fault);
+      if (found != Fault::kNone) {
+        faults.add(found);
       }
     }
   }

@@ -23,7 +23,7 @@ void guard_tried_duties(DriveRows drives, const Cycle& cycle, const LastCommands
   const auto& sent = last.duty_ratio;
   const auto driven = kDriveCount - std::count(sent.begin(), sent.end(), 0.0);
   const auto& tried = valid.tried_ratio;
-  const bool links_rest = std::count(tried.begin(), tried.end(), 0.0) == kAxisCount;
+  const bool links_rest = tried[kBoom] == 0.0 && tried[kArm] == 0.0 && tried[kBucket] == 0.0;
   FaultSet stops;
   for (int i = 0; i < drives.count(); ++i) {
     const auto k = static_cast<unsigned>(i);
