@@ -16,7 +16,8 @@ inline constexpr double kLeadHome = 1e-3;
 /// at 0.5]
 inline constexpr double kLeadDoubted = 1.5;
 /// The same from which on nothing is led. [-; measured: `campaign dig --draws 40 --found
-/// spool_lag=0.015,spool_closes=0.05`: 65 / 124 mm with the whole lead, 43 / 83 at 5]
+/// spool_lag=0.015,spool_closes=0.05`: 60 / 141 mm; with 0.12 as the most that it adds 43 / 83, but
+/// the exact 22 t has 6.5 mm at half speed]
 inline constexpr double kLeadGivenUp = 5.0;
 /// Time over which it is judged. [s; chosen: a few motions of a spool; not tried]
 inline constexpr double kLeadJudged_s = 2.0;
