@@ -15,21 +15,16 @@ namespace {
 constexpr double kSameHeight_m = 1e-3;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-std::uint64_t key(const CellPlace& at) {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(at.j)) << 32U) |
-         static_cast<std::uint32_t>(at.i);
-}
-
 /// Of points by their cells.
 class Index {
  public:
   explicit Index(const std::vector<BuiltPoint>& points) {
     for (std::uint32_t n = 0; n < points.size(); ++n) {
-      place_.emplace(key(points[n].cell), n);
+      place_.emplace(cell_key(points[n].cell), n);
     }
   }
   [[nodiscard]] std::uint32_t of(const CellPlace& cell) const {
-    const auto found = place_.find(key(cell));
+    const auto found = place_.find(cell_key(cell));
     return found == place_.end() ? kNone : found->second;
   }
 

@@ -60,14 +60,14 @@ void CellGrid::add(const EdgeStep& step) {
 }
 
 void CellGrid::pass(const CellPlace& place, double height_m, double time_s, bool at_work) {
-  const auto found = cell_.find(key(place));
+  const auto found = cell_.find(cell_key(place));
   if (found == cell_.end()) {
     if (at_work) {
       if (cell_.size() >= kMostCells) {
         throw std::runtime_error(fmt::format(
             "more than {} cells of {} m; a larger --grid makes fewer", kMostCells, grid_m_));
       }
-      cell_.emplace(key(place), Cell{height_m, time_s, height_m, time_s, 1});
+      cell_.emplace(cell_key(place), Cell{height_m, time_s, height_m, time_s, 1});
     }
     return;
   }
@@ -100,7 +100,7 @@ std::vector<std::pair<CellPlace, Cell>> CellGrid::sorted() const {
 }
 
 const Cell* CellGrid::at(const CellPlace& place) const {
-  const auto found = cell_.find(key(place));
+  const auto found = cell_.find(cell_key(place));
   return found == cell_.end() ? nullptr : &found->second;
 }
 

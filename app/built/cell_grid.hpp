@@ -29,6 +29,12 @@ struct CellPlace {
   std::int32_t j = 0;
 };
 
+/// The same as one number, for look-ups.
+[[nodiscard]] inline std::uint64_t cell_key(const CellPlace& place) {
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(place.j)) << 32U) |
+         static_cast<std::uint32_t>(place.i);
+}
+
 inline constexpr double kLeastGrid_m = 0.02;
 inline constexpr double kMostGrid_m = 2.0;
 inline constexpr std::size_t kMostCells = 1'000'000;
@@ -61,10 +67,6 @@ class CellGrid {
   }
 
  private:
-  [[nodiscard]] static std::uint64_t key(const CellPlace& place) {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(place.j)) << 32U) |
-           static_cast<std::uint32_t>(place.i);
-  }
   void pass(const CellPlace& place, double height_m, double time_s, bool at_work);
 
   double grid_m_;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/machines/profile_document.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::commission {
 namespace {
@@ -28,7 +29,6 @@ std::string possible_text(double stroke_m) {
                      kLeastLength_m);
 }
 
-constexpr double kDegree_rad = M_PI / 180.0;
 constexpr double kMostSector_rad = 3.0;
 /// Each side: less is no room to come to a speed and to stop.
 constexpr double kLeastSector_rad = 0.6;
@@ -163,8 +163,8 @@ bool ask_sector(const Ask& ask, Sector& sector) {
   const Sector proposed = sector;
   for (std::string why;;) {
     sector = proposed;
-    double right_deg = sector.right_rad / kDegree_rad;
-    double left_deg = sector.left_rad / kDegree_rad;
+    double right_deg = kDegreesPerRad * sector.right_rad;
+    double left_deg = kDegreesPerRad * sector.left_rad;
     const auto said = ask(
         fmt::format("{}swing: sector, deg: RIGHT LEFT [{:.0f} {:.0f}] ", why, right_deg, left_deg));
     const auto speed =
@@ -175,8 +175,8 @@ bool ask_sector(const Ask& ask, Sector& sector) {
     }
     const bool read = (said->empty() || read_numbers(*said, {&right_deg, &left_deg})) &&
                       (speed->empty() || read_numbers(*speed, {&sector.most_radps}));
-    sector.right_rad = right_deg * kDegree_rad;
-    sector.left_rad = left_deg * kDegree_rad;
+    sector.right_rad = right_deg / kDegreesPerRad;
+    sector.left_rad = left_deg / kDegreesPerRad;
     if (read && is_possible(sector)) {
       return true;
     }
@@ -197,7 +197,7 @@ void require_possible(const Sector& sector) {
 
 std::string sector_text(const Sector& sector) {
   return fmt::format("swing: from {:.0f} deg (right) to {:.0f} deg (left), at most {:.2f} rad/s",
-                     sector.right_rad / kDegree_rad, sector.left_rad / kDegree_rad,
+                     kDegreesPerRad * sector.right_rad, kDegreesPerRad * sector.left_rad,
                      sector.most_radps);
 }
 

@@ -42,7 +42,7 @@ void require_possible(const Window& window, double stroke_m, const std::string& 
 /// Throws std::runtime_error unless the sector is one that may be confirmed.
 void require_possible(const Sector& sector);
 
-/// "swing: 30 deg to the right to 30 deg to the left, at most 0.50 rad/s".
+/// "swing: from -30 deg (right) to 30 deg (left), at most 0.60 rad/s".
 [[nodiscard]] std::string sector_text(const Sector& sector);
 
 /// "boom: 0.070 to 1.330 of 1.400 m, at most 0.50 m/s, its ends are not touched".

@@ -31,8 +31,8 @@ struct CommissionSetup {
   TimeUs silent_after_us = 20 * kSecondUs;  ///< As StationOptions; a still hand holds for minutes.
 };
 
-/// Enable is given while the deadman counts; then, once the controller is armed, task Commission,
-/// of the swing Jog. Duties are tried only while the controller is active, every stroke is heard,
+/// Enable is given while the deadman counts; then, once the controller is armed, task Commission.
+/// Duties are tried only while the controller is active, every stroke is heard,
 /// and no window that has not reached the controller keeps it from trying them: what was
 /// interrupted begins again. Ends when all is done, when the controller stops by a fault after it
 /// was armed, or when a stroke goes the wrong way; from then on nothing is asked for.

@@ -9,6 +9,7 @@
 
 #include "app/machines/axis_names.hpp"
 #include "firmware/excavator/kinematics/excavator_kinematics.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::identify {
 namespace {
@@ -26,7 +27,6 @@ constexpr double kStands_radps = 0.01;
 constexpr std::size_t kCoastMost = 400;
 /// Points next to each other say the same.
 constexpr double kAlike = 6.0;
-constexpr double kDegree_rad = M_PI / 180.0;
 
 /// Parabola through a window of the angle.
 struct Motion {
@@ -149,8 +149,9 @@ void look_at_coasting(const LogSegment& segment, std::size_t at, double lever_m,
     coast.most_pa = std::max(coast.most_pa, brakes_pa);
     ++end;
   }
-  if (series.duty[end] != 0.0) {
-    return;  // Told to move again before it stood.
+  const bool stood = end + kHalf + 1 < segment.size() && end < at + kCoastMost;
+  if (!stood || series.duty[end] != 0.0) {
+    return;  // The log ends, or it was told to move again, before it stood.
   }
   coast.angle_rad = std::abs(series.stroke_m[end] - series.stroke_m[at]) / lever_m;
   coast.time_s = kGrid_s * static_cast<double>(end - at);
@@ -221,7 +222,7 @@ std::vector<std::string> swing_sentences(const SwingFigures& swing) {
       all.push_back(fmt::format(
           "{}: goes on by {:.1f} deg in {:.2f} s from {:.2f} rad/s once its command is neutral, "
           "braked by up to {:.1f} MPa",
-          machines::side_name(kSwing, left), coast.angle_rad / kDegree_rad, coast.time_s,
+          machines::side_name(kSwing, left), kDegreesPerRad * coast.angle_rad, coast.time_s,
           coast.from_radps, 1e-6 * coast.most_pa));
     }
   }
