@@ -112,6 +112,35 @@ TEST(what_is_not_driven_is_said) {
               machine.profile.valve.spool[kBucket].extend_in_m2, 0.0);
 }
 
+/// The platform turns by 0.3 rad/s, is told to stop after 0.5 s, and stands `after` grid points on,
+/// unless the log ends before.
+bool coasting_is_told(std::size_t after) {
+  const ExcavatorProfile profile = test::excavator_12t().profile;
+  LogSegment segment;
+  segment.drives = kDriveCount;
+  segment.engine_radps.assign(200, 150.0);
+  for (CylinderSeries& series : segment.axis) {
+    for (std::vector<double>* values :
+         {&series.duty, &series.spool, &series.stroke_m, &series.cap_pa, &series.rod_pa}) {
+      values->assign(segment.size(), 0.0);
+    }
+  }
+  CylinderSeries& swing = segment.axis[kSwing];
+  for (std::size_t n = 0; n < segment.size(); ++n) {
+    const auto turned = static_cast<double>(std::min(n, 50 + after));
+    swing.duty[n] = n < 50 ? 0.5 : 0.0;
+    swing.stroke_m[n] = 0.3 * kGrid_s * turned * profile.swing.lever_m;
+  }
+  MachineLog log;
+  log.segments = {segment};
+  return find_swing(profile, {log}).left.known;
+}
+
+TEST(a_coasting_without_its_end_is_not_told) {
+  assert_true(coasting_is_told(40));
+  assert_false(coasting_is_told(500));
+}
+
 /// Of a machine with a swing all of it is found, and what was not driven is said.
 TEST(a_swing_is_found) {
   const machines::SimulatedExcavator machine = runs::hidden_with_noise(test::excavator_12t(), 5);
