@@ -64,13 +64,33 @@ FaultSet watch_rests(DriveRows drives, const DriveCommands& last, Span<const Val
   return stops;
 }
 
+/// No load presses, nor has one lately: what a slow drive does then is its valve's doing.
+bool is_in_air(DriveRows drives, Span<const ValidDrive> seen, double period_s, double& pressed_s) {
+  bool known = true;
+  pressed_s = std::max(0.0, pressed_s - period_s);
+  for (int i = 0; i < drives.count(); ++i) {
+    if (!has_edges(drives[i]) || !drives[i].control.has_end_stops) {
+      continue;
+    }
+    const double highest_pa = std::max(seen[i].cap_pressure_pa, seen[i].rod_pressure_pa);
+    known = known && seen[i].load_known;
+    if (highest_pa > kLearntPressed * drives[i].watch.relief_pa) {
+      pressed_s = kLearntInAir_s;
+    }
+  }
+  return known && pressed_s == 0.0;
+}
+
 void learn_valves(DriveRows drives, const DriveCommands& last, Span<const ValidDrive> seen,
                   bool moving, double period_s, DriveWatchView state) {
+  const LearntFrom from = is_in_air(drives, seen, period_s, state.pressed_s)
+                              ? LearntFrom::kAnyMotion
+                              : LearntFrom::kPlainMotion;
   for (int i = 0; i < std::min(drives.count(), state.learnt.count()); ++i) {
     const BlockedState& blocked = state.blocked[i];
     const bool free = blocked.side == 0 && blocked.less == 0.0 && !blocked.strains;
-    next_learnt(drives[i], seen[i], {last.ask.asked_mps[i], last.opening[i]}, moving && free,
-                period_s, state.learnt[i]);
+    next_learnt(drives[i], seen[i], {last.ask.asked_mps[i], last.opening[i]},
+                moving && free ? from : LearntFrom::kNothing, period_s, state.learnt[i]);
   }
 }
 

@@ -67,9 +67,10 @@ struct DriveWatchState {
   std::array<FlowState, kMost> flow{};
   std::array<LearntValve, kLearnt> learnt{};  ///< Kept when the machine stands.
   std::array<PressurePair, kMost> pressure{};
-  int echo_cycles = 0;   ///< In a row, that the echo has differed.
-  double tried_s = 0.0;  ///< For which duties that were tried may still be under way.
-  bool closing = false;  ///< It was in motion, and some spool has not been in its middle since.
+  int echo_cycles = 0;     ///< In a row, that the echo has differed.
+  double pressed_s = 0.0;  ///< For which no motion is one in the air, since a load has pressed.
+  double tried_s = 0.0;    ///< For which duties that were tried may still be under way.
+  bool closing = false;    ///< It was in motion, and some spool has not been in its middle since.
 };
 
 /// The same of any bank.
@@ -87,6 +88,7 @@ struct DriveWatchView {
         learnt(state.learnt),
         pressure(state.pressure),
         echo_cycles(state.echo_cycles),
+        pressed_s(state.pressed_s),
         tried_s(state.tried_s),
         closing(state.closing) {}
 
@@ -100,6 +102,7 @@ struct DriveWatchView {
   Span<LearntValve> learnt;
   Span<PressurePair> pressure;
   int& echo_cycles;
+  double& pressed_s;
   double& tried_s;
   bool& closing;
 };

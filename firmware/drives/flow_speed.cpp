@@ -6,6 +6,7 @@
 
 #include "firmware/drives/spool_opening.hpp"
 #include "firmware/drives/tuning.hpp"
+#include "firmware/numeric/power.hpp"
 
 namespace graben {
 namespace {
@@ -97,7 +98,7 @@ double least_share(const Opening& opening, double exponent, double most_share) {
 SpeedRange metered_out(const DriveRow& drive, const Way& way, const Opening& opening) {
   const SpoolMetering& metering = drive.metering;
   const double per_area = metering.discharge * std::sqrt(2.0 / metering.density_kgpm3);
-  const double share = std::pow(opening.most, metering.opening_exponent);
+  const double share = power(opening.most, metering.opening_exponent);
   const double most = (1.0 + kFlowAreaBand) * share;
   const double least =
       (1.0 - kFlowAreaBand) * least_share(opening, metering.opening_exponent, share);

@@ -6,6 +6,7 @@
 
 #include "firmware/drives/spool_opening.hpp"
 #include "firmware/drives/tuning.hpp"
+#include "firmware/numeric/power.hpp"
 
 namespace graben {
 namespace {
@@ -64,11 +65,23 @@ LearntSeen along(const LearntSeen& seen, double way) {
           way * seen.speed_mps};
 }
 
-bool may_be_compared(const LearntSeen& seen) {
+/// Motion that may be the valve's doing, whatever presses on the drive.
+bool is_plain(const LearntSeen& seen) {
   const double asked_mps = seen.asked.speed_mps;
   return asked_mps >= kLearntLeastSpeed_mps && seen.asked.opening >= kLearntLeastOpening &&
          seen.opening >= 0.0 && seen.speed_mps * kLearntMostRatio >= asked_mps &&
          seen.speed_mps <= kLearntMostRatio * asked_mps;
+}
+
+/// Motion that is the valve's doing where nothing presses.
+bool is_motion(const LearntSeen& seen) {
+  return std::max(seen.asked.speed_mps, seen.speed_mps) >= kLearntLeastSpeed_mps &&
+         std::min(seen.asked.speed_mps, seen.speed_mps) >= kLearntCreeps_mps &&
+         seen.opening >= -kLearntEdgeMost;
+}
+
+bool may_be_compared(const LearntSeen& seen, LearntFrom from) {
+  return is_plain(seen) || (from == LearntFrom::kAnyMotion && is_motion(seen));
 }
 
 /// A motor that stands under a spool that should be open: its dead band ends farther out. One that
@@ -126,11 +139,11 @@ LearntSide::LearntSide()
     : edge_variance(kLearntEdgeSpread * kLearntEdgeSpread),
       bend_variance(kLearntBendSpread * kLearntBendSpread) {}
 
-void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk& ask, bool usable,
-                 double period_s, LearntValve& valve) {
+void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk& ask,
+                 LearntFrom from, double period_s, LearntValve& valve) {
   const double way_m = seen.stroke_m - valve.stroke_m;
   valve.stroke_m = seen.stroke_m;
-  if (!usable || !is_learnt(drive) || !(period_s > 0.0)) {
+  if (from == LearntFrom::kNothing || !is_learnt(drive) || !(period_s > 0.0)) {
     valve.late = {};
     valve.seen = {};
     valve.unmoved_s = 0.0;
@@ -156,12 +169,13 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   if (drive.spool.bypass_closes_at > 0.0) {
     feel_standing(mean, along(now, way), period_s, valve, side);
   }
-  if (!steady || !may_be_compared(mean)) {
+  if (!steady || !may_be_compared(mean, from)) {
     return;
   }
   const double steepness = drive.spool.bypass_closes_at > 0.0 ? kLearntSteeper : 1.0;
-  const double share = std::pow(mean.speed_mps / mean.asked.speed_mps,
-                                1.0 / (steepness * drive.metering.opening_exponent));
+  const double ratio = std::clamp(mean.speed_mps / mean.asked.speed_mps, 1.0 / kLearntCountedRatio,
+                                  kLearntCountedRatio);
+  const double share = power(ratio, 1.0 / (steepness * drive.metering.opening_exponent));
   const double by_profile = std::min(share * mean.asked.opening, 1.0);
   const double by_speed = by_profile * kLearntSpeedNoise_mps / mean.speed_mps;
   learn(mean.opening - by_profile, by_profile,

@@ -10,6 +10,7 @@
 /// profile's flow is off (areas, pumps, pressures) is learnt with them, as an opening.
 
 #include <array>
+#include <cstdint>
 
 #include "firmware/drives/drive_validation.hpp"
 
@@ -57,11 +58,18 @@ struct LearntValve {
 /// moves at all: its load takes seconds to get its speed.
 [[nodiscard]] bool is_learnt(const DriveRow& drive);
 
-/// A cycle on. Nothing is learnt unless `usable` (the drive is in motion and its load does not hold
-/// it), where the opening changes fast, is nearly closed, or the speed is not at least a quarter
-/// and at most four times what is asked; nor of a valve whose inlet meters the flow.
-void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk& ask, bool usable,
-                 double period_s, LearntValve& valve);
+/// What a valve may be learnt from.
+enum class LearntFrom : std::uint8_t {
+  kNothing,      ///< The drive is not in motion, or its load holds it.
+  kPlainMotion,  ///< Soil may press: 10 mm/s and a quarter to four times what is asked.
+  kAnyMotion,    ///< In the air: also what is slow, or far from what is asked.
+};
+
+/// A cycle on. Nothing is learnt where the opening changes fast; nor of a valve whose inlet meters
+/// the flow. A slow path needs kAnyMotion: a valve that opens too soon is asked for next to nothing
+/// there, its feedback takes back the rest, and one that opens too late does next to nothing.
+void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk& ask,
+                 LearntFrom from, double period_s, LearntValve& valve);
 
 /// A cylinder stands under a spool that should be open beyond what makes its line press as hard as
 /// its load; of a line whose bypass closes over the opening alone.

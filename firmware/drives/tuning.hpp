@@ -248,6 +248,20 @@ inline constexpr double kLearntLeastOpening = 0.02;
 /// Ratio of speed to asked speed, or the other way, beyond which it is not the valve's doing. [-;
 /// chosen: not tried]
 inline constexpr double kLearntMostRatio = 4.0;
+/// Ratio of the two up to which it counts: farther off, where the valve is to be learnt from any
+/// motion, it is told no more. [-; measured: 4, 8 and 16 tried on seven cells of `cells.py --map`
+/// at 1, .3 and .1, ringing at most 4.8, 3.6 and 3.8 mm]
+inline constexpr double kLearntCountedRatio = 8.0;
+/// Slowest of the two from which a valve is learnt from any motion. [m/s; measured: 0.5, 2 and 4
+/// mm/s tried on the same cells at .1, largest error 19, 20 and 25 mm for 17]
+inline constexpr double kLearntCreeps_mps = 0.001;
+/// Share of its relief from which a load presses on a drive. [-; measured: 0.35 tried, boom and
+/// bucket in the air come to 0.41, and one of seven cells is stopped; 0.6, a soil's push at a tenth
+/// of the speed is learnt from, and 2 of 20 loops are stopped]
+inline constexpr double kLearntPressed = 0.45;
+/// Time since one has pressed after which the machine is in the air. [s; measured: 2 tried, 30 of
+/// 40 loops of the 12 t in soil at a tenth of the speed close instead of 34, as many as without]
+inline constexpr double kLearntInAir_s = 10.0;
 /// Distance of an opening from its low-pass beyond which it changes too fast to be compared. [-;
 /// chosen: not tried]
 inline constexpr double kLearntSteady = 0.08;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/hydraulics/flow.hpp"
+#include "firmware/numeric/power.hpp"
 
 namespace graben {
 
@@ -29,7 +30,7 @@ MonotoneTable velocity_coefficient_table(const SpoolMetering& metering, double c
     const double share = static_cast<double>(i) / (kPoints - 1);
     const double opening = share * share;
     travel[k] = metering.spool_travel_m * opening;
-    coefficient[k] = coefficient_full * std::pow(opening, metering.opening_exponent);
+    coefficient[k] = coefficient_full * power(opening, metering.opening_exponent);
   }
   MonotoneTable table;
   // A profile that passed its check fills it; another leaves it empty, which the machine's check

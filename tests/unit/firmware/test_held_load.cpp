@@ -128,7 +128,7 @@ TEST(an_edge_is_looked_for_at_once_and_steadily) {
     ValidDrive seen;
     seen.stroke_m = 0.5;
     seen.spool_ratio = std::copysign(first + (1.0 - first) * std::abs(spool.second_mps), asked);
-    next_learnt(boom, seen, {back ? -0.005 : 0.03, asked}, true, 0.01, valve);
+    next_learnt(boom, seen, {back ? -0.005 : 0.03, asked}, LearntFrom::kPlainMotion, 0.01, valve);
     told = told || stands_open(valve);
     if (!back) {
       edge[static_cast<unsigned>(n - 100)] = valve.extend.edge;
@@ -139,6 +139,6 @@ TEST(an_edge_is_looked_for_at_once_and_steadily) {
   for (unsigned n = 1; n < edge.size(); ++n) {
     assert_true(edge[n] - edge[n - 1] < 0.1 * 0.01 + 1e-9);
   }
-  next_learnt(boom, {}, {}, false, 0.01, valve);
+  next_learnt(boom, {}, {}, LearntFrom::kNothing, 0.01, valve);
   assert_false(stands_open(valve));
 }

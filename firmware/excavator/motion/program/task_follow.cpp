@@ -42,7 +42,8 @@ double behind_m(const SwingKinematics& kinematics, const TaskAim& aim,
   }
   const double along_m = due_less_at_m.dot(velocity_mps) / speed_mps;
   const double across_m2 = due_less_at_m.squaredNorm() - along_m * along_m;
-  return std::sqrt(std::max(0.0, across_m2) + std::pow(std::max(0.0, along_m), 2));
+  const double ahead_m = std::max(0.0, along_m);
+  return std::sqrt(std::max(0.0, across_m2) + ahead_m * ahead_m);
 }
 
 TaskProgress progress_of(const TaskProgram& program, const TaskMemory& memory, const TaskAim& aim) {
