@@ -172,7 +172,6 @@ void choose(const SequenceChoice& choice, commission::SequenceOptions& options) 
 void commission_on_bus(const BusCommission& options) {
   const machines::ExcavatorMachine machine =
       machines::load_excavator(machines::find_profile(options.profile));
-  assert_told_pumps(machine);
   commission::Progress progress = begun(options, machine);
   require_somebody_confirms(options);
   look_at_bus(options, machine);

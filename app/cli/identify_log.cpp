@@ -54,8 +54,9 @@ std::vector<identify::MachineLog> read_logs(const IdentifyLogCommand& options,
   const ExcavatorProfile& profile = machine.profile;
   std::vector<identify::MachineLog> logs;
   for (const std::string& file : options.logs) {
-    logs.push_back(
-        identify::read_machine_log(file, profile.pump_count, identify::swing_lever_m(profile)));
+    logs.push_back(identify::read_machine_log(file, profile.pump_count,
+                                              identify::swing_lever_m(profile),
+                                              !profile.pump[0].regulator.sets_swash()));
     const identify::MachineLog& log = logs.back();
     for (const std::string& note : log.notes) {
       fmt::print("note: {}\n", note);
@@ -172,13 +173,20 @@ void assert_better(const identify::JudgedFit& fit, const IdentifyLogCommand& opt
   throw std::runtime_error(fit.predicts() ? text + next_text(options) : text);
 }
 
-/// What was found goes into the profile's own text.
-void assert_whole(const fs::path& file) {
-  if (machines::read_document(file).root.contains("like")) {
+/// What was found goes into the profile's own text: where that is like another, it has to be like
+/// the same one where it is written.
+void assert_same_base(const fs::path& file, const fs::path& out) {
+  const auto alone = [&](const fs::path& as) {
+    return machines::ProfileDocument{as, toml::parse(text_of(file), file.string())};
+  };
+  const auto base = machines::base_of(alone(file));
+  const auto there = machines::base_of(alone(out));
+  std::error_code error;
+  if (base && !fs::equivalent(*base, *there, error)) {
     throw std::runtime_error(
-        fmt::format("{}: it is like another, so what was found has no place in its text; allowed: "
-                    "a profile that has all its keys",
-                    file.string()));
+        fmt::format("{}: {} is like {}, and beside {} that would be {}; allowed: a folder in which "
+                    "it is the same",
+                    out.string(), file.string(), base->string(), out.string(), there->string()));
   }
 }
 
@@ -187,9 +195,8 @@ void assert_whole(const fs::path& file) {
 void identify_logs(const IdentifyLogCommand& options) {
   const fs::path file = machines::find_profile(options.profile);
   const machines::ExcavatorMachine machine = machines::load_excavator(file);
-  assert_told_pumps(machine);
-  assert_whole(file);
   assert_outputs(options, file);
+  assert_same_base(file, options.out);
   const std::vector<identify::MachineLog> logs = read_logs(options, machine, {machine.hash});
   identify::JudgedFit fit;
   {
@@ -233,7 +240,6 @@ void identify_logs(const IdentifyLogCommand& options) {
 void check_logs(const IdentifyLogCommand& options) {
   assert_outputs(options, machines::find_profile(options.profile));
   const machines::ExcavatorMachine machine = load_profile(options.profile);
-  assert_told_pumps(machine);
   std::vector<std::uint32_t> hashes = {machine.hash};
   std::vector<reports::ScoreColumn> columns;
   identify::PredictionScore before;

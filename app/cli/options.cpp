@@ -330,15 +330,6 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
       fmt::format("{}", fmt::join(words, ", ")));
 }
 
-void assert_told_pumps(const machines::ExcavatorMachine& machine) {
-  if (machine.profile.pump[0].regulator.sets_swash()) {
-    throw std::runtime_error(
-        fmt::format("the pumps of {} set their swash themselves; allowed: a profile whose "
-                    "controller sets it, pumps of kind positive",
-                    machine.name));
-  }
-}
-
 void assert_radians(const std::string& what, double angle_rad) {
   constexpr double kTurn_rad = 6.283185307179587;
   if (!(std::abs(angle_rad) <= kTurn_rad)) {

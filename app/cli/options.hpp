@@ -104,11 +104,6 @@ void add_figure_option(CLI::App& command, std::vector<std::string>& figures,
 /// One of these words; says which is near to a wrong one.
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// Of `commission` and `identify`: throws std::runtime_error, which names the command, where the
-/// pumps set their swash themselves. What a drive answers then also hangs on its load, of which
-/// neither knows.
-void assert_told_pumps(const machines::ExcavatorMachine& machine);
-
 /// Throws std::runtime_error for an angle of more than a full turn, which is one in degrees.
 void assert_radians(const std::string& what, double angle_rad);
 

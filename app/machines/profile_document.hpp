@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "app/machines/profile_file.hpp"
 #include "app/machines/toml_reader.hpp"
@@ -33,6 +34,12 @@ void lay_over(toml::table& base, toml::table&& differences);
 /// does; of NAME.sim.toml the same. Throws std::runtime_error if a file can't be read, ProfileError
 /// if it is not TOML, or like one that is not there, is itself or is like another.
 [[nodiscard]] ProfileDocument read_document(const std::filesystem::path& file);
+
+/// The same of what has been read already, as of `document.file`, which need not be there.
+[[nodiscard]] ProfileDocument laid_over_base(ProfileDocument document);
+
+/// File that it says to be like; none where it says so of none.
+[[nodiscard]] std::optional<std::filesystem::path> base_of(const ProfileDocument& document);
 
 /// Why a text is not TOML, with its place and the line that is meant.
 [[nodiscard]] std::string syntax_words(const std::string& text, const toml::parse_error& error);

@@ -199,11 +199,20 @@ void lay_over(toml::table& base, toml::table&& differences) {
 }
 
 ProfileDocument read_document(const std::filesystem::path& file) {
-  ProfileDocument document = read_alone(file);
+  return laid_over_base(read_alone(file));
+}
+
+std::optional<std::filesystem::path> base_of(const ProfileDocument& document) {
+  const auto like = document.root["like"].value<std::string>();
+  return like ? std::optional(base_file(document.file, *like)) : std::nullopt;
+}
+
+ProfileDocument laid_over_base(ProfileDocument document) {
   const auto like = document.root["like"].value<std::string>();
   if (!like) {
     return document;
   }
+  const std::filesystem::path file = document.file;
   const std::filesystem::path base_at = base_file(file, *like);
   check_base(document, base_at, *like);
   ProfileDocument base = read_alone(base_at);

@@ -122,7 +122,8 @@ IdentifyResult run_identification(const machines::SimulatedExcavator& hidden,
   identify::MachineEstimate found;
   try {
     const std::vector<identify::MachineLog> logs = {
-        frames.log(hidden.profile.pump_count, identify::swing_lever_m(hidden.profile))};
+        frames.log(hidden.profile.pump_count, identify::swing_lever_m(hidden.profile),
+                   !hidden.profile.pump[0].regulator.sets_swash())};
     found = identify::identify_machine(
         identify::DriveModel(hidden.profile), logs,
         [&](double share, const std::string& what) { progress(0.4 + 0.3 * share, what); });

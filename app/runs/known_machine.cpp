@@ -129,6 +129,10 @@ identify::MachineEstimate known_machine(const ExcavatorProfile& profile,
   }
   for (unsigned j = 0; j < kPumpCount; ++j) {
     machine.pump_flow_factor[j] = known(truth.pump_flow_factor[j]);
+    if (profile.pump[j].regulator.sets_swash()) {
+      machine.regulator[j].margin_pa = known(truth.regulator[j].margin_pa);
+      machine.regulator[j].response_s = known(truth.regulator[j].response_s);
+    }
   }
   return machine;
 }

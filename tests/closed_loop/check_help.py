@@ -141,13 +141,11 @@ def own_words(graben, folder):
     (folder / "a.csv").write_text("a,b\n", encoding="ascii")
     missing_files(graben, folder)
     other_sorts(graben, folder)
-    for command in (["commission"], ["identify", "--out", "b.toml"], ["identify", "--check"]):
-        refused(graben, "the pumps of excavator_12t_nfc set their swash themselves", *command, "--log", "a.log",
-                "--profile", "excavator_12t_nfc", folder=folder)
-    shutil.copy(pathlib.Path(__file__).resolve().parents[2] / "app/machines/excavator_22t.toml", folder)
-    (folder / "like.toml").write_text('like = "excavator_22t"\n', encoding="ascii")
-    refused(graben, "it is like another", "identify", "--out", "b.toml", "--log", "a.log", "--profile", "like.toml",
-            folder=folder)
+    shutil.copy(pathlib.Path(__file__).resolve().parents[2] / "app/machines/excavator_22t.toml", folder / "base.toml")
+    (folder / "like.toml").write_text('kind = "excavator"\nlike = "base"\n', encoding="ascii")
+    (folder / "other").mkdir()
+    refused(graben, "allowed: a folder in which it is the same", "identify", "--out", "other/b.toml", "--log", "a.log",
+            "--profile", "like.toml", folder=folder)
     refused(graben, "neither spools nor pressures are measured", "dig", "--without", "spool,pressure", folder=folder)
     refused(graben, "is no campaign", "campaign", "merge", "a.csv", "--summary", "all.csv", folder=folder)
 

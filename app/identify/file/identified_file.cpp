@@ -302,7 +302,8 @@ void assert_reads_back(const std::string& text, const std::filesystem::path& fil
                        const ExcavatorProfile& wanted) {
   std::string wrong;
   try {
-    const machines::ProfileDocument document{file, toml::parse(text, file.string())};
+    const machines::ProfileDocument document =
+        machines::laid_over_base({file, toml::parse(text, file.string())});
     wrong = first_difference(machines::load_excavator(document).profile, wanted);
   } catch (const std::exception& error) {
     throw std::runtime_error(fmt::format(

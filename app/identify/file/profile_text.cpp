@@ -164,6 +164,12 @@ void ProfileText::set(const std::string& section, const std::string& key, const 
                       const std::string& comment) {
   const auto view = root_.at_path(section);
   const toml::table* table = view.as_table();
+  if (table == nullptr && section.find('[') != std::string::npos) {
+    throw std::runtime_error(fmt::format(
+        "{}.{}: has no place in this profile's text, which is like another; give it all "
+        "tables [[{}]] of its own",
+        section, key, section.substr(0, section.find('['))));
+  }
   if (table == nullptr) {
     const std::string above = comment.empty() ? "" : fmt::format("{}{}\n", kMark, comment);
     add_section(section, fmt::format("{}{} = {}\n", above, written_key(key), value));

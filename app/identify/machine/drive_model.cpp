@@ -43,19 +43,19 @@ double force_n(const CircuitAxis& at_1_mps, double speed_mps, double sqrt_line) 
          speed_mps * speed_mps * at_1_mps.inflow_check_force_n;
 }
 
-/// v = c sqrt(F(v)) at this pressure of the line.
+/// v = c sqrt(F(v)) at this pressure of the line, with no more than a compensator leaves of F.
 double speed_at(const CircuitAxis& at_1_mps, double coefficient, double sqrt_line) {
   const double most_n = force_n(at_1_mps, 0.0, sqrt_line);
   if (most_n <= 0.0) {
     return 0.0;
   }
-  const double most_mps = coefficient * std::sqrt(most_n);
+  const double most_mps = coefficient * std::sqrt(std::min(most_n, at_1_mps.most_force_n));
   if (!at_1_mps.regeneration && at_1_mps.inflow_check_force_n == 0.0) {
     return most_mps;
   }
   return root(0.0, most_mps, [&](double speed_mps) {
     const double left_n = force_n(at_1_mps, speed_mps, sqrt_line);
-    return coefficient * std::sqrt(std::max(0.0, left_n)) - speed_mps;
+    return coefficient * std::sqrt(std::clamp(left_n, 0.0, at_1_mps.most_force_n)) - speed_mps;
   });
 }
 
@@ -108,6 +108,20 @@ Open open_axis(const DriveModel& model, const McvCircuit& circuit, const ValveMo
   return open;
 }
 
+/// What holds the margin at the heaviest of those that are open, as fast as it then goes, but no
+/// more than `most`: more a line has not that senses its load.
+double held_sqrt_line(const std::vector<Open>& opens, double margin_pa, double most) {
+  double held = std::sqrt(margin_pa);
+  for (const Open& open : opens) {
+    const CircuitAxis& axis = open.at_1_mps;
+    const double metered_mps = open.coefficient * std::sqrt(axis.margin_force_n);
+    held = std::max(held, root(0.0, most, [&](double tried) {
+                      return axis.margin_force_n - force_n(axis, metered_mps, tried);
+                    }));
+  }
+  return std::min(held, most);
+}
+
 }  // namespace
 
 DriveModel::DriveModel(const ExcavatorProfile& profile)
@@ -126,7 +140,8 @@ PerPump<double> DriveModel::flow_m3ps(double engine_radps,
                                       const std::array<double, kPumpCount>& swash) const {
   PerPump<double> each_m3ps{};
   for (std::size_t j = 0; j < static_cast<std::size_t>(valve.pump_count); ++j) {
-    each_m3ps[j] = pump_flow_m3ps(pump[j], engine_radps, swash[j]);
+    const bool sets_swash = pump[j].regulator.sets_swash();
+    each_m3ps[j] = pump_flow_m3ps(pump[j], engine_radps, sets_swash ? 1.0 : swash[j]);
   }
   return each_m3ps;
 }
@@ -159,7 +174,10 @@ std::array<double, kDriveCount> DriveModel::speeds_mps(const ValveMoment& moment
       return open.drained_mps >= 0.0 ? open.drained_mps
                                      : speed_at(open.at_1_mps, open.coefficient, sqrt_line);
     };
-    const double most = idle.has_relief ? idle.sqrt_relief : std::sqrt(kMost_pa);
+    double most = idle.has_relief ? idle.sqrt_relief : std::sqrt(kMost_pa);
+    if (pump_kind() == PumpKind::kLoadSensing) {
+      most = held_sqrt_line(opens, pump[j].regulator.margin_pa, most);
+    }
     const double sqrt_line = root(0.0, most, [&](double tried) {
       FlowBalance line = idle;
       for (const Open& open : opens) {

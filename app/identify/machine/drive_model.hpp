@@ -29,19 +29,24 @@ struct ValveMoment {
 struct DriveModel {
   explicit DriveModel(const ExcavatorProfile& profile);
 
-  /// At this engine speed and these shares of full swash, without pressure.
+  /// At this engine speed and these shares of full swash, without pressure; of a pump that sets its
+  /// own the most that it gives.
   [[nodiscard]] PerPump<double> flow_m3ps(double engine_radps,
                                           const std::array<double, kPumpCount>& swash) const;
 
   /// Speeds that the pumps' lines, the loads and the openings leave: v = c_L(x) sqrt(F), (9) to
   /// (12), and the flow balance (27) of each line, together. A cylinder whose load drives it while
-  /// no oil is behind it goes as fast as its draining edge lets it.
+  /// no oil is behind it goes as fast as its draining edge lets it. A line that senses its load has
+  /// no more than the margin above the heaviest.
   [[nodiscard]] std::array<double, kDriveCount> speeds_mps(const ValveMoment& moment) const;
 
   /// With a swing one more than the cylinders.
   [[nodiscard]] std::size_t drives() const {
     return static_cast<std::size_t>(valve.actuator_count);
   }
+
+  /// All pumps are of one kind.
+  [[nodiscard]] PumpKind pump_kind() const { return pump[0].regulator.kind; }
 
   std::array<DriveRow, kDriveCount> drive;
   McvMachine valve;

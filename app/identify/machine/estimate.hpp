@@ -43,6 +43,7 @@ struct SideEstimate {
   Estimate exponent;
   Estimate coefficient_factor;  ///< Of the profile's velocity coefficient c_L, (9) and (11).
   Estimate out_area_factor;     ///< Of the profile's area on the draining side.
+  double in_area_factor = 1.0;  ///< With load sensing, of its feeding side; see coefficient_of().
   Estimate dead_time_s;
   double driven_least = 0.0;  ///< Least and most duty that moved it; both 0: none did.
   double driven_most = 0.0;
@@ -82,6 +83,12 @@ struct SwingCoast {
   double most_pa = 0.0;  ///< Largest pressure that braked it; its relief is not below that.
 };
 
+/// What a pump that sets its own swash has of its regulator; see PumpRegulator.
+struct RegulatorEstimate {
+  Estimate margin_pa;   ///< Load sensing.
+  Estimate response_s;  ///< Of both.
+};
+
 /// See find_swing().
 struct SwingFigures {
   Estimate inertia_kgm2;  ///< Of all that turns, links half out.
@@ -94,6 +101,7 @@ struct MachineEstimate {
   SwingFigures swing;
   DriveEstimates drive;
   std::array<Estimate, kPumpCount> pump_flow_factor;  ///< Of the profile's displacement.
+  std::array<RegulatorEstimate, kPumpCount> regulator;
   std::vector<std::string> missing;  ///< What the logs do not support, a sentence each.
 };
 

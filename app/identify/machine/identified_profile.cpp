@@ -39,7 +39,7 @@ DutyTable table_of(const std::vector<double>& duty) {
 /// Curve and areas are of one fit: one without the other would be another machine.
 bool has_curve(const SideEstimate& side) { return side.edge.known && !side.duty.empty(); }
 
-void set_side(const DriveEstimate& drive, bool extends, SaidAnswer& answer) {
+void set_side(const DriveEstimate& drive, bool extends, double pump_s, SaidAnswer& answer) {
   const SideEstimate& side = drive.side(extends);
   if (has_curve(side)) {
     answer.spool_to_duty = table_of(side.duty);
@@ -48,7 +48,7 @@ void set_side(const DriveEstimate& drive, bool extends, SaidAnswer& answer) {
     answer.dead_time_s = side.dead_time_s.value;
   }
   if (drive.spool_time_constant_s.known) {
-    answer.lag_s = drive.lag_s() + kOilLag_s;
+    answer.lag_s = drive.lag_s() + kOilLag_s + pump_s;
     answer.spool_time_constant_s = 0.5 * drive.lag_s();
   }
 }
@@ -96,16 +96,35 @@ void set_areas(int axis, const DriveEstimate& drive, ExcavatorProfile& profile) 
   }
 }
 
+void set_regulator(const RegulatorEstimate& found, PumpRegulator& regulator) {
+  if (found.margin_pa.known) {
+    regulator.margin_pa = found.margin_pa.value;
+  }
+  if (found.response_s.known) {
+    regulator.response_s = found.response_s.value;
+  }
+}
+
+/// What the profile's lag has beyond its spool's and its oil's is its pump's, where that sets its
+/// own swash: no log of spools tells it.
+double pump_lag_s(const ExcavatorProfile& profile) {
+  const double of_spool_s = 2.0 * profile.oil.spool_time_constant_s + kOilLag_s;
+  return profile.pump[0].regulator.sets_swash()
+             ? std::max(0.0, profile.control.response_s - of_spool_s)
+             : 0.0;
+}
+
 }  // namespace
 
 ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstimate& machine) {
   ExcavatorProfile result = profile;
   double longest_lag_s = 0.0;
+  const double pump_s = pump_lag_s(profile);
   for (int axis = 0; axis < result.drive_count; ++axis) {
     const auto k = static_cast<unsigned>(axis);
     const DriveEstimate& drive = machine.drive[k];
-    set_side(drive, true, result.valve.answer[k].extend);
-    set_side(drive, false, result.valve.answer[k].retract);
+    set_side(drive, true, pump_s, result.valve.answer[k].extend);
+    set_side(drive, false, pump_s, result.valve.answer[k].retract);
     set_areas(axis, drive, result);
     if (axis == kSwing) {
       continue;
@@ -128,6 +147,7 @@ ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstima
     if (machine.pump_flow_factor[j].known) {
       result.pump[j].displacement_m3prev *= machine.pump_flow_factor[j].value;
     }
+    set_regulator(machine.regulator[j], result.pump[j].regulator);
   }
   // The mode that the profile's own low-pass is made for.
   const machines::TunedControl tuned = machines::tuned_control(

@@ -82,6 +82,19 @@ void tell_missing(const DriveModel& model, MachineEstimate& machine) {
   }
 }
 
+/// What of its regulator no log says, as pressures of lines are on no bus.
+void tell_regulators(const DriveModel& model, MachineEstimate& machine) {
+  if (model.pump_kind() != PumpKind::kLoadSensing) {
+    return;
+  }
+  for (int j = 0; j < model.valve.pump_count; ++j) {
+    machine.missing.push_back(fmt::format(
+        "pump {}: its margin and its response keep their old values: no line's pressure "
+        "is in the logs; what the margin is off, the areas have taken up",
+        j + 1));
+  }
+}
+
 bool any_driven(const MachineEstimate& machine) {
   bool any = false;
   for (const DriveEstimate& drive : machine.drive) {
@@ -122,6 +135,7 @@ MachineEstimate identify_machine(const DriveModel& model, const std::vector<Mach
     throw std::runtime_error("no cylinder moves steadily anywhere in the logs");
   }
   tell_missing(model, machine);
+  tell_regulators(model, machine);
   progress(1.0, "done");
   return machine;
 }

@@ -85,7 +85,7 @@ class LogCollector::Frames {
     decode(frame);
   }
 
-  MachineLog log(int pump_count, double swing_lever_m);
+  MachineLog log(int pump_count, double swing_lever_m, bool told);
 
  private:
   [[noreturn]] void fail(std::size_t line, const std::string& what) const {
@@ -107,7 +107,7 @@ class LogCollector::Frames {
 
   void decode(const LoggedFrame& frame);
   void identify(const LoggedFrame& frame);
-  void assert_whole() const;
+  void assert_whole(bool told) const;
   [[nodiscard]] LogSegment segment(double begin_s, double end_s, int pump_count) const;
   void scale_swing(double lever_m);
 
@@ -286,7 +286,7 @@ void LogCollector::Frames::assert_heard(const Readings& readings, const std::str
   }
 }
 
-void LogCollector::Frames::assert_whole() const {
+void LogCollector::Frames::assert_whole(bool told) const {
   if (dozer_ > 0) {
     refuse("is the log of a dozer's bus; only excavators are identified");
   }
@@ -315,7 +315,9 @@ void LogCollector::Frames::assert_whole() const {
     assert_heard(signals_.rod_pa[i], fmt::format("the rod pressure of the {}", kNames[i]));
   }
   assert_heard(signals_.engine_radps, "the engine's speed");
-  assert_heard(signals_.swash[0], "the swash of pump 1");
+  if (told) {
+    assert_heard(signals_.swash[0], "the swash of pump 1");
+  }
 }
 
 /// Angles as travels, as the core takes them.
@@ -329,8 +331,8 @@ void LogCollector::Frames::scale_swing(double lever_m) {
   }
 }
 
-MachineLog LogCollector::Frames::log(int pump_count, double swing_lever_m) {
-  assert_whole();
+MachineLog LogCollector::Frames::log(int pump_count, double swing_lever_m, bool told) {
+  assert_whole(told);
   scale_swing(swing_lever_m);
   const Readings& strokes = signals_.stroke_m[0];
   double begin_s = strokes.front().time_s;
@@ -359,8 +361,8 @@ MachineLog LogCollector::Frames::log(int pump_count, double swing_lever_m) {
 LogCollector::LogCollector(std::string name) : frames_(new Frames(std::move(name))) {}
 LogCollector::~LogCollector() = default;
 void LogCollector::take(const LoggedFrame& frame) { frames_->take(frame); }
-MachineLog LogCollector::log(int pump_count, double swing_lever_m) {
-  return frames_->log(pump_count, swing_lever_m);
+MachineLog LogCollector::log(int pump_count, double swing_lever_m, bool told) {
+  return frames_->log(pump_count, swing_lever_m, told);
 }
 
 double MachineLog::length_s() const {
@@ -371,11 +373,11 @@ double MachineLog::length_s() const {
   return sum_s;
 }
 
-MachineLog read_machine_log(const std::filesystem::path& file, int pump_count,
-                            double swing_lever_m) {
+MachineLog read_machine_log(const std::filesystem::path& file, int pump_count, double swing_lever_m,
+                            bool told) {
   LogCollector collector(file.filename().string());
   LogRead read = read_candump(file, [&](const LoggedFrame& frame) { collector.take(frame); });
-  MachineLog log = collector.log(pump_count, swing_lever_m);
+  MachineLog log = collector.log(pump_count, swing_lever_m, told);
   log.sha256 = read.sha256;
   log.notes = read.notes();
   return log;

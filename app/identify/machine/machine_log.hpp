@@ -76,20 +76,21 @@ class LogCollector {
   /// Frames of other buses are counted, those with a wrong length or checksum refused. Throws as
   /// read_machine_log().
   void take(const LoggedFrame& frame);
-  /// Of a machine with so many pumps; its swing with that lever, without a swing 0.
-  [[nodiscard]] MachineLog log(int pump_count, double swing_lever_m = 0.0);
+  /// Of a machine with so many pumps; its swing with that lever, without a swing 0. Pumps that set
+  /// their own swash (`told` false) need not say it.
+  [[nodiscard]] MachineLog log(int pump_count, double swing_lever_m = 0.0, bool told = true);
 
  private:
   class Frames;
   std::unique_ptr<Frames> frames_;
 };
 
-/// Reads a log, plain or gzip; `pump_count` and `swing_lever_m` (0: no swing) of the machine. A log
-/// without SwingState says nothing of a swing. Throws std::runtime_error that names
-/// file, line and reason: unreadable, cut off, not candump, no frame of an excavator, another DBC
-/// version, a dozer's bus, two machines on one bus, too many damaged
+/// Reads a log, plain or gzip; `pump_count`, `swing_lever_m` (0: no swing) and `told` of the
+/// machine, see LogCollector. A log without SwingState says nothing of a swing. Throws
+/// std::runtime_error that names file, line and reason: unreadable, cut off, not candump, no frame
+/// of an excavator, another DBC version, a dozer's bus, two machines on one bus, too many damaged
 /// frames, a signal that is missing or often has no value, less than 5 s in one piece.
 [[nodiscard]] MachineLog read_machine_log(const std::filesystem::path& file, int pump_count,
-                                          double swing_lever_m = 0.0);
+                                          double swing_lever_m = 0.0, bool told = true);
 
 }  // namespace graben::identify

@@ -47,7 +47,7 @@ struct PointCost {
   bool operator()(const double* side, const double* zero, const double* pump,
                   double* residuals) const {
     const ValveTry tried = try_of(side, zero, pump);
-    residuals[0] = of->is_fed() ? of->speed_error(tried).error_mps / spread->speed_mps : 0.0;
+    residuals[0] = of->says_speed() ? of->speed_error(tried).error_mps / spread->speed_mps : 0.0;
     residuals[1] = of->drains() ? of->out_error_mps(tried) / spread->out_mps : 0.0;
     return true;
   }

@@ -298,6 +298,13 @@ void Fit::tell_side(const DriveModel& model, std::size_t side, SideEstimate& to)
   to.out_area_factor =
       found(std::exp(block[kLogOutArea]), first + kLogOutArea, priors_.log_out_area);
   to.out_area_factor.deviation *= to.out_area_factor.value;
+  if (model.pump_kind() == PumpKind::kLoadSensing) {
+    to.in_area_factor = to.coefficient_factor.value;
+    const double whole = coefficient_of(model, static_cast<int>(side) / 2, side % 2 == 0,
+                                        to.in_area_factor, to.out_area_factor.value);
+    to.coefficient_factor.deviation *= whole / to.in_area_factor;
+    to.coefficient_factor.value = whole;
+  }
   // Of the travel at each opening, by the curve's three values.
   constexpr double kStep = 1e-4;
   const Eigen::Matrix3d covariance =
@@ -366,7 +373,7 @@ void fit_valves(const DriveModel& model, const std::vector<SteadyPoint>& points,
   std::vector<PreparedPoint> prepared;
   prepared.reserve(points.size());
   for (const SteadyPoint& point : points) {
-    prepared.emplace_back(model, point, machine.drive[static_cast<std::size_t>(point.axis)]);
+    prepared.emplace_back(model, point, machine.drive);
   }
   Fit fit(prepared, priors, machine, model.drives());
   fit.solve();

@@ -8,8 +8,12 @@
 /// 2. That of the draining side, where no check valve is open: Q_out = C_d A_out(x) sqrt(2 p /
 /// rho).
 ///
-/// One curve x -> opening serves both; factors on c_L and A_out are its own. Ceres, robust loss,
-/// weak priors about the profile's values: what no point says stays where it was.
+/// A valve of closed centre, whose pumps sense the load, has in the first one's place that of its
+/// feeding side: the margin over A_in(x), which a compensator keeps, or no more than the pump has
+/// left. What it gives is not measured: full swash at the engine's speed is the most.
+///
+/// One curve x -> opening serves both; factors on c_L (or A_in) and A_out are its own. Ceres,
+/// robust loss, weak priors about the profile's values: what no point says stays where it was.
 
 #include <functional>
 #include <vector>

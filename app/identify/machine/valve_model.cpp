@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/mcv/evaluation.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben::identify {
 namespace {
@@ -20,6 +21,12 @@ constexpr double kFed_pa = 0.8e6;
 constexpr double kEdgeDecides = 0.6;
 /// Less pressure left for an edge is more the line's error than the edge's.
 constexpr double kSays_pa = 1.0e6;
+/// Pumps that sense the load cut off so far under the relief at the most.
+constexpr double kCutOff_pa = 2.0e6;
+/// A pressure that rises faster takes oil that moves nothing.
+constexpr double kRise_paps = 12e6;
+/// As fast as that, of what the pump has left for it, a drive shows the pump and not its edge.
+constexpr double kOfMost = 0.95;
 
 /// The speeds as the valve's model takes them: along their spools, or none.
 McvInput input_at(const DriveModel& model, const SteadyPoint& point, double own_mps) {
@@ -39,9 +46,10 @@ McvInput input_at(const DriveModel& model, const SteadyPoint& point, double own_
 }  // namespace
 
 PreparedPoint::PreparedPoint(const DriveModel& model, const SteadyPoint& point,
-                             const DriveEstimate& drive)
+                             const DriveEstimates& drives)
     : point_(point) {
   const auto axis = static_cast<std::size_t>(point.axis);
+  const DriveEstimate& drive = drives[axis];
   // At 1 m/s all that grows with its speed is its coefficient.
   const McvCircuit circuit =
       make_circuit(model.valve, input_at(model, point, extends() ? 1.0 : -1.0));
@@ -58,18 +66,71 @@ PreparedPoint::PreparedPoint(const DriveModel& model, const SteadyPoint& point,
   }
   full_mps_ = axis_.spool->y_last();
   const SpoolProfile& spool = model.drive[axis].spool;
-  out_m3ps_ = model.metering.discharge * std::sqrt(2.0 / model.metering.density_kgpm3) *
-              (extends() ? spool.extend_out_m2 : spool.retract_out_m2);
+  const double per_area = model.metering.discharge * std::sqrt(2.0 / model.metering.density_kgpm3);
+  out_m3ps_ = per_area * (extends() ? spool.extend_out_m2 : spool.retract_out_m2);
+  in_m3ps_ = per_area * (extends() ? spool.extend_in_m2 : spool.retract_in_m2);
   cap_m2_ = model.valve.actuator[axis].area_cap_m2;
   rod_m2_ = model.valve.actuator[axis].area_rod_m2;
   const double cap_pa = point.cap_pa[axis] - drive.cap_zero_pa.value;
   const double rod_pa = point.rod_pa[axis] - drive.rod_zero_pa.value;
   const double drained_pa = extends() ? rod_pa : cap_pa;
-  fed_ = (extends() ? cap_pa : rod_pa) > kFed_pa;
+  const double fed_pa = extends() ? cap_pa : rod_pa;
+  fed_ = fed_pa > kFed_pa;
   drains_ = drained_pa > kDrained_pa && std::abs(point.speed_mps) > kStands_mps;
+  if (model.pump_kind() == PumpKind::kLoadSensing) {
+    sense_loads(model, drives);
+    // Nearer to the relief the line may have less than its margin over the load.
+    const double relief_pa = model.pump[static_cast<std::size_t>(pump_)].relief_pa;
+    const double line_pa = std::max({0.0, fed_pa, others_pa_}) + margin_pa_;
+    const bool holds = line_pa < relief_pa - kCutOff_pa;
+    const bool steady =
+        std::abs(extends() ? point.cap_rise_paps : point.rod_rise_paps) < kRise_paps;
+    bounds_ = holds && steady && !fed_;
+    fed_ = holds && steady && fed_;
+    const double gallery = std::abs(point.speed_mps) * axis_.q_out_m3ps / axis_.c_drain;
+    returns_ = axis_.regeneration && gallery * gallery > line_pa;
+  }
 }
 
-double PreparedPoint::sqrt_line(double flow_factor, double speed_mps) const {
+void PreparedPoint::sense_loads(const DriveModel& model, const DriveEstimates& drives) {
+  const PumpRegulator& by = model.pump[static_cast<std::size_t>(pump_)].regulator;
+  senses_load_ = true;
+  compensated_ = by.compensated;
+  margin_pa_ = by.margin_pa;
+  for (std::size_t k = 0; k < model.drives(); ++k) {
+    const double speed_mps = point_.all_speed_mps[k];
+    if (static_cast<int>(k) != point_.axis && model.valve.actuator[k].pump == pump_ &&
+        speed_mps * point_.all_spool[k] > 0.0 && std::abs(speed_mps) > kStands_mps) {
+      const double fed_pa = speed_mps > 0.0 ? point_.cap_pa[k] - drives[k].cap_zero_pa.value
+                                            : point_.rod_pa[k] - drives[k].rod_zero_pa.value;
+      others_pa_ = std::max(others_pa_, fed_pa);
+    }
+  }
+}
+
+double PreparedPoint::metered_mps(const ValveTry& tried, double area_ratio) const {
+  const auto axis = static_cast<std::size_t>(point_.axis);
+  const double fed_pa =
+      extends() ? point_.cap_pa[axis] - tried.cap_zero_pa : point_.rod_pa[axis] - tried.rod_zero_pa;
+  const double over_pa =
+      margin_pa_ + (compensated_ ? 0.0 : std::max(0.0, others_pa_ - std::max(0.0, fed_pa)));
+  return tried.coefficient_factor * in_m3ps_ * area_ratio * std::sqrt(over_pa) /
+         axis_.inlet_area_m2;
+}
+
+double PreparedPoint::most_mps(const ValveTry& tried) const {
+  if (returns_) {
+    return kInfinity;
+  }
+  const auto axis = static_cast<std::size_t>(point_.axis);
+  const double fed_pa =
+      extends() ? point_.cap_pa[axis] - tried.cap_zero_pa : point_.rod_pa[axis] - tried.rod_zero_pa;
+  const double sqrt_line = std::sqrt(std::max({0.0, fed_pa, others_pa_}) + margin_pa_);
+  const double left_m3ps = flow_left(line_at(tried.pump_flow_factor, 0.0), 1.0, sqrt_line);
+  return std::max(0.0, left_m3ps) / axis_.inlet_area_m2;
+}
+
+FlowBalance PreparedPoint::line_at(double flow_factor, double speed_mps) const {
   FlowBalance line = others_;
   line.flow_m3ps *= flow_factor;
   const double in_m3ps = speed_mps * axis_.q_in_m3ps;
@@ -83,6 +144,11 @@ double PreparedPoint::sqrt_line(double flow_factor, double speed_mps) const {
     line.regeneration[static_cast<std::size_t>(line.regeneration_count++)] = {
         out_m3ps, axis_.c_drain, axis_.c_check, out_m3ps / axis_.c_drain};
   }
+  return line;
+}
+
+double PreparedPoint::sqrt_line(double flow_factor, double speed_mps) const {
+  FlowBalance line = line_at(flow_factor, speed_mps);
   // Many more than it takes: kPressureSteps end it.
   Work work{1000};
   line.work = &work;
@@ -102,6 +168,11 @@ double PreparedPoint::force_n(const ValveTry& tried, double speed_mps) const {
 
 SpeedError PreparedPoint::speed_error(const ValveTry& tried) const {
   const double seen_mps = extends() ? point_.speed_mps : -point_.speed_mps;
+  if (senses_load_) {
+    const double area_ratio = tried.curve.area_ratio(std::abs(point_.spool));
+    const double error_mps = std::min(metered_mps(tried, area_ratio), most_mps(tried)) - seen_mps;
+    return {fed_ ? error_mps : std::max(0.0, error_mps), 0.0};
+  }
   const double speed_mps = std::max(0.0, seen_mps);
   const double coefficient =
       tried.coefficient_factor * full_mps_ * tried.curve.area_ratio(std::abs(point_.spool));
@@ -136,9 +207,21 @@ double PreparedPoint::out_error_mps(const ValveTry& tried) const {
 
 double PreparedPoint::coefficient_share(const ValveTry& tried) const {
   const double speed_mps = std::max(0.0, extends() ? point_.speed_mps : -point_.speed_mps);
+  if (senses_load_) {
+    const bool metered = speed_mps < kOfMost * most_mps(tried);
+    return fed_ && metered && speed_mps > kStands_mps ? speed_mps / metered_mps(tried, 1.0) : -1.0;
+  }
   const double left_n = force_n(tried, speed_mps);
   const bool says = fed_ && speed_mps > kStands_mps && left_n > kSays_pa * axis_.inlet_area_m2;
   return says ? speed_mps / (full_mps_ * std::sqrt(left_n)) : -1.0;
+}
+
+double coefficient_of(const DriveModel& model, int axis, bool extends, double in_factor,
+                      double out_factor) {
+  const McvActuator& actuator = model.valve.actuator[static_cast<std::size_t>(axis)];
+  const double out_share = extends ? actuator.extend_outlet_share : actuator.retract_outlet_share;
+  return 1.0 / std::sqrt((1.0 - out_share) / (in_factor * in_factor) +
+                         out_share / (out_factor * out_factor));
 }
 
 std::vector<CurvePoint> curve_points(const DriveModel& model, const std::vector<MachineLog>& logs,
@@ -146,7 +229,7 @@ std::vector<CurvePoint> curve_points(const DriveModel& model, const std::vector<
   std::vector<CurvePoint> all;
   for (const SteadyPoint& point : steady_points(logs, model)) {
     const DriveEstimate& drive = found.drive[static_cast<std::size_t>(point.axis)];
-    const PreparedPoint prepared(model, point, drive);
+    const PreparedPoint prepared(model, point, found.drive);
     ValveTry tried;
     tried.cap_zero_pa = drive.cap_zero_pa.value;
     tried.rod_zero_pa = drive.rod_zero_pa.value;
@@ -154,7 +237,11 @@ std::vector<CurvePoint> curve_points(const DriveModel& model, const std::vector<
         found.pump_flow_factor[static_cast<std::size_t>(prepared.pump())].value;
     const double share = prepared.coefficient_share(tried);
     if (share >= 0.0) {
-      all.push_back({point.axis, prepared.extends(), std::abs(point.spool), share});
+      // Both edges open alike: the coefficient's share is that of the feeding one.
+      const SideEstimate& side = drive.side(prepared.extends());
+      const bool by_edge = model.pump_kind() == PumpKind::kLoadSensing;
+      const double whole = by_edge ? side.coefficient_factor.value / side.in_area_factor : 1.0;
+      all.push_back({point.axis, prepared.extends(), std::abs(point.spool), whole * share});
     }
   }
   return all;

@@ -11,7 +11,7 @@ namespace graben::identify {
 /// What both equations ask of a side, a drive and a pump.
 struct ValveTry {
   OpeningCurve curve;
-  double coefficient_factor = 1.0;
+  double coefficient_factor = 1.0;  ///< With load sensing, of the feeding area instead.
   double out_area_factor = 1.0;
   double cap_zero_pa = 0.0;
   double rod_zero_pa = 0.0;
@@ -26,8 +26,8 @@ struct SpeedError {
 /// A point with its circuit, prepared once.
 class PreparedPoint {
  public:
-  /// `drive` has the pressure zeros as far as they are known by then.
-  PreparedPoint(const DriveModel& model, const SteadyPoint& point, const DriveEstimate& drive);
+  /// `drives` have the pressure zeros as far as they are known by then.
+  PreparedPoint(const DriveModel& model, const SteadyPoint& point, const DriveEstimates& drives);
 
   [[nodiscard]] const SteadyPoint& point() const { return point_; }
   [[nodiscard]] bool extends() const { return point_.spool > 0.0; }
@@ -38,15 +38,25 @@ class PreparedPoint {
   [[nodiscard]] SpeedError speed_error(const ValveTry& tried) const;
   /// The same by the draining side.
   [[nodiscard]] double out_error_mps(const ValveTry& tried) const;
-  /// What its speed says its velocity coefficient is, of the profile's at full opening; below 0
-  /// where nothing feeds it or too little force is left to say so.
+  /// What its speed says its velocity coefficient is, of the profile's at full opening, with load
+  /// sensing its feeding area; below 0 where nothing feeds it or too little force is left to say
+  /// so.
   [[nodiscard]] double coefficient_share(const ValveTry& tried) const;
   /// The pump feeds it: without pressure there its load drives it, and oil comes from the tank.
   [[nodiscard]] bool is_fed() const { return fed_; }
+  /// Its speed says something of what feeds it. What a margin meters comes even where its load
+  /// takes more: then the speed is the most of it, and an error below 0 is none.
+  [[nodiscard]] bool says_speed() const { return fed_ || bounds_; }
   /// The draining side says something: it has pressure, and no gallery decides.
   [[nodiscard]] bool drains() const { return drains_; }
 
  private:
+  void sense_loads(const DriveModel& model, const DriveEstimates& drives);
+  /// With load sensing: what the margin presses through the feeding edge, and the most that the
+  /// pump has left for it.
+  [[nodiscard]] double metered_mps(const ValveTry& tried, double area_ratio) const;
+  [[nodiscard]] double most_mps(const ValveTry& tried) const;
+  [[nodiscard]] FlowBalance line_at(double flow_factor, double speed_mps) const;
   [[nodiscard]] double force_n(const ValveTry& tried, double speed_mps) const;
   [[nodiscard]] double sqrt_line(double flow_factor, double speed_mps) const;
 
@@ -60,7 +70,20 @@ class PreparedPoint {
   double rod_m2_ = 0.0;
   bool fed_ = false;
   bool drains_ = false;
+  // With load sensing.
+  bool senses_load_ = false;
+  bool compensated_ = false;
+  bool bounds_ = false;   ///< Its load takes more than the margin meters.
+  double in_m3ps_ = 0.0;  ///< C_d A_in sqrt(2 / rho) at full opening, m^3/(s sqrt(Pa)).
+  double margin_pa_ = 0.0;
+  bool returns_ = false;    ///< Oil comes back, and with it the pump is not the limit.
+  double others_pa_ = 0.0;  ///< Heaviest load of the line's others; 0: none moves.
 };
+
+/// Velocity coefficient of a side, of the profile's, whose areas are these factors of the
+/// profile's.
+[[nodiscard]] double coefficient_of(const DriveModel& model, int axis, bool extends,
+                                    double in_factor, double out_factor);
 
 /// A steady point as one of its side's curve.
 struct CurvePoint {

@@ -25,6 +25,8 @@ enum class Figure : std::uint32_t {
   kMass,
   kStrokeZero,
   kPressureZero,
+  kMargin,
+  kResponse,
 };
 
 class Hiding {
@@ -103,6 +105,13 @@ void hide_link(plant::ExcavatorPlantProfile& plant, const Hiding& hiding, std::s
       hiding.symmetric(Figure::kStrokeZero, axis, ranges.stroke_zero_m);
 }
 
+void hide_regulator(plant::ExcavatorPlantProfile& plant, const Hiding& hiding, std::size_t pump,
+                    const HiddenRanges& ranges) {
+  PumpRegulator& by = plant.machine.pump[pump].regulator;
+  by.margin_pa *= hiding.factor(Figure::kMargin, pump, ranges.margin);
+  by.response_s *= hiding.factor(Figure::kResponse, pump, ranges.response);
+}
+
 }  // namespace
 
 SimulatedExcavator hidden_machine(const SimulatedExcavator& nominal, std::uint64_t seed) {
@@ -125,6 +134,9 @@ SimulatedExcavator hidden_machine(const SimulatedExcavator& nominal, std::uint64
     plant.pump_flow_ratio[pump] *= hiding.factor(Figure::kPumpFlow, pump, ranges.pump_flow);
   }
   plant.bulk_modulus_pa = hiding.within(Figure::kOil, 0, ranges.bulk_modulus_pa);
+  for (std::size_t pump = 0; pump < kPumpCount; ++pump) {
+    hide_regulator(plant, hiding, pump, ranges);
+  }
   return machine;
 }
 

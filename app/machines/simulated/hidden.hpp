@@ -29,6 +29,9 @@ struct HiddenRanges {
   double mass = 0.15;      ///< Of each link, and the platform's inertia.
   double stroke_zero_m = 0.010;
   double pressure_zero_pa = 1.2e6;  ///< Each chamber.
+  // Of pumps that set their own swash, each by itself.
+  double margin = 0.20;
+  double response = 0.30;
 };
 
 /// The nominal machine with the plant of this seed: no figure of the controller's profile changes.

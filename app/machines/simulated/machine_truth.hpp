@@ -42,6 +42,7 @@ struct MachineTruth {
   std::array<DriveTruth, kDriveCount> drive;  ///< Of a swing that is not driven: means nothing.
   std::array<double, kPumpCount> pump_flow_factor{};  ///< On the nominal displacement.
   double bulk_modulus_pa = 0.0;
+  std::array<PumpRegulator, kPumpCount> regulator;  ///< Of pumps that set their own swash.
 };
 
 [[nodiscard]] MachineTruth truth_of(const plant::ExcavatorPlantProfile& plant);

@@ -14,6 +14,8 @@
 #include "app/runs/drive_speeds.hpp"
 #include "app/runs/identify_run.hpp"
 #include "app/runs/known_machine.hpp"
+#include "can_dbc/generated/excavator_dbc.hpp"
+#include "hal/can_frame.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 #include "tests/unit/refusal.hpp"
@@ -22,19 +24,31 @@ using namespace graben::identify;
 
 void nothing(double, const std::string&) {}
 
-/// A hidden machine's log, and what is made of it.
+/// A hidden machine's log, and what is made of it. Of pumps that set their own swash no frame is
+/// seen.
 struct Commissioned {
-  explicit Commissioned(std::uint64_t seed)
-      : machine(runs::hidden_with_noise(test::excavator(), seed)),
-        truth(machines::truth_of(machine.plant)) {
+  Commissioned(const machines::SimulatedExcavator& nominal, std::uint64_t seed)
+      : machine(runs::hidden_with_noise(nominal, seed)), truth(machines::truth_of(machine.plant)) {
+    const bool told = !machine.profile.pump[0].regulator.sets_swash();
     LogCollector frames("bus");
     const runs::CommissionResult run = runs::run_commission(
         machine, runs::usual_commission(machine),
-        [&](const LoggedFrame& frame) { frames.take(frame); }, nothing);
+        [&](const LoggedFrame& frame) {
+          if (told || !same_message(frame.id, dbc::excavator::PumpState::kId)) {
+            frames.take(frame);
+          }
+        },
+        nothing);
     assert_int_equal(run.end, runs::CommissionEnd::kDone);
     assert_true(run.machine_s < 300.0);
-    logs.push_back(frames.log(machine.profile.pump_count));
+    logs.push_back(frames.log(machine.profile.pump_count, 0.0, told));
     found = identify_machine(DriveModel(machine.profile), logs, nothing);
+  }
+
+  [[nodiscard]] bool says(const std::string& words) const {
+    return std::any_of(found.missing.begin(), found.missing.end(), [&](const std::string& each) {
+      return each.find(words) != std::string::npos;
+    });
   }
 
   machines::SimulatedExcavator machine;
@@ -44,7 +58,7 @@ struct Commissioned {
 };
 
 TEST(a_hidden_machine_is_found) {
-  const Commissioned commissioned(11);
+  const Commissioned commissioned(test::excavator(), 11);
   const runs::IdentificationErrors errors =
       runs::errors_of(commissioned.machine.profile, commissioned.found, commissioned.truth);
   assert_true(errors.edge_ratio < 0.013);
@@ -55,6 +69,27 @@ TEST(a_hidden_machine_is_found) {
   assert_true(errors.pump_flow < 0.04);
   assert_true(errors.speed_ratio < 0.06);
   assert_true(errors.within_share() > 0.8);
+}
+
+/// What its pumps give is known by the drives' speeds alone; a pump that no drive uses up is not.
+TEST(a_machine_that_senses_its_load_is_found) {
+  const auto nominal =
+      machines::load_simulated_excavator(machines::find_profile("excavator_22t_ls"));
+  const Commissioned commissioned(nominal, 1);
+  const runs::IdentificationErrors errors =
+      runs::errors_of(commissioned.machine.profile, commissioned.found, commissioned.truth);
+  assert_true(errors.edge_ratio < 0.02);
+  assert_true(errors.dead_time_s < 0.010);
+  assert_true(errors.lag_s < 0.010);
+  assert_true(errors.pressure_zero_pa < 0.6e6);
+  assert_true(errors.speed_ratio < 0.05);
+  assert_true(errors.within_share() > 0.8);
+  assert_true(commissioned.found.pump_flow_factor[1].known);
+  assert_near(commissioned.found.pump_flow_factor[1].value, commissioned.truth.pump_flow_factor[1],
+              0.02);
+  assert_true(commissioned.says("pump 1: its flow keeps its old value"));
+  assert_true(commissioned.says("pump 1: its margin and its response keep their old values"));
+  assert_true(commissioned.says("pump 2: its margin and its response keep their old values"));
 }
 
 /// Its truth as an estimate has no error, and gives back what it is made of.
