@@ -223,6 +223,7 @@ void CommissionSequence::prepare() {
     begin_m_ = stroke_m_;
     moves_s_ = 0.0;
     presses_ = 0;
+    pushes_ = 0.0;
     let_go_s_ = 0.0;
   }
 }

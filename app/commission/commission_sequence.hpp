@@ -119,6 +119,7 @@ class CommissionSequence {
   std::array<double, kAxisCount> begin_m_{};  ///< All strokes then.
   std::optional<WrongWay> wrong_;
   int presses_ = 0;        ///< Of a touch, so far.
+  double pushes_ = 0.0;    ///< Of a touch: level beyond what moved its drive elsewhere.
   double let_go_s_ = 0.0;  ///< For so long a touch has been let go.
   double moves_s_ = 0.0;   ///< For so long in a row a ramp's drive has moved.
   double stands_s_ = 0.0;  ///< For so long all have stood: where a linkage rocks, it turns.

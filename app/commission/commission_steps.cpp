@@ -111,7 +111,7 @@ void CommissionSequence::run_burst() {
 }
 
 void CommissionSequence::run_touch() {
-  constexpr double kLongest_s = 30.0;
+  constexpr double kLongest_s = 25.0;
   const SequenceStep& step = steps_[at_];
   const auto k = static_cast<unsigned>(step.axis);
   if (edge(step.axis, step.sign) == 0.0 || elapsed_s() > kLongest_s) {
@@ -142,7 +142,13 @@ void CommissionSequence::run_touch() {
   const double speed_mps = left_m > kNear_m + v_mps * kStops_s              ? travel_mps()
                            : presses || left_m > kLast_m + v_mps * kStops_s ? kNear_mps
                                                                             : kLast_mps;
-  const double level = level_for(step.axis, step.sign, speed_mps);
+  // A load that has become heavier stands where the line's pressure grows with the opening.
+  const bool waits = left_m >= kEnd_m && time_s_ - mark_s_ > kPresses_s;
+  const bool creeps = left_m < kEnd_m && v_mps < kCreeps * speed_mps;
+  const bool hurries = v_mps > kTooFast * speed_mps;
+  const double more_ps = waits ? kPushes_ps : creeps ? kPushesLast_ps : hurries ? -kPushes_ps : 0.0;
+  pushes_ = std::max(0.0, pushes_ + kPeriod_s * more_ps);
+  const double level = level_for(step.axis, step.sign, speed_mps) + pushes_;
   drive(step.axis, level_duty(step.axis, step.sign, safe_level(step.axis, step.sign, level)));
 }
 

@@ -42,6 +42,13 @@ inline constexpr double kLast_m = 0.03;
 inline constexpr double kLetGo_s = 0.2;
 /// A piston that has stood for so long is pushed a little more.
 inline constexpr double kPresses_s = 0.2;
+/// As much more of the level a second where it stands before its end, and less where it is so many
+/// times as fast as it should be.
+inline constexpr double kPushes_ps = 0.4;
+inline constexpr double kTooFast = 1.5;
+/// The same in its cushion, where it is slower than such a share of what it should be.
+inline constexpr double kPushesLast_ps = 0.05;
+inline constexpr double kCreeps = 0.3;
 /// A step lasts so long after its drive has begun to move.
 inline constexpr double kHold_s = 0.75;
 inline constexpr double kNoMotion_s = 1.4;

@@ -75,6 +75,20 @@ void know_side(const ExcavatorProfile& profile, int axis, bool extends, const Si
   }
 }
 
+/// Opening of the profile's model at which the bypass is closed: the mean of all sides, whose areas
+/// grow by powers of their own.
+double closes_at(const ExcavatorProfile& profile, const machines::MachineTruth& truth) {
+  double sum = 0.0;
+  for (int axis = 0; axis < profile.drive_count; ++axis) {
+    const DriveTruth& drive = truth.drive[static_cast<unsigned>(axis)];
+    for (const SideTruth* side : {&drive.extend, &drive.retract}) {
+      sum +=
+          std::pow(truth.bypass_closes_at, side->opening_exponent / profile.valve.opening_exponent);
+    }
+  }
+  return sum / (2.0 * profile.drive_count);
+}
+
 /// Compares one value after the other.
 class Count {
  public:
@@ -127,11 +141,17 @@ identify::MachineEstimate known_machine(const ExcavatorProfile& profile,
     drive.cap_zero_pa = known(from.cap_zero_pa);
     drive.rod_zero_pa = known(from.rod_zero_pa);
   }
+  if (profile.pump[0].regulator.kind == PumpKind::kNegativeFlow) {
+    machine.bypass_closes_at = known(closes_at(profile, truth));
+  }
   for (unsigned j = 0; j < kPumpCount; ++j) {
     machine.pump_flow_factor[j] = known(truth.pump_flow_factor[j]);
     if (profile.pump[j].regulator.sets_swash()) {
       machine.regulator[j].margin_pa = known(truth.regulator[j].margin_pa);
       machine.regulator[j].response_s = known(truth.regulator[j].response_s);
+      machine.regulator[j].full_swash_pa = known(truth.regulator[j].full_swash_pa);
+      machine.regulator[j].least_swash_pa = known(truth.regulator[j].least_swash_pa);
+      machine.regulator[j].least_swash_ratio = known(truth.regulator[j].least_swash_ratio);
     }
   }
   return machine;

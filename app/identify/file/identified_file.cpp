@@ -156,6 +156,27 @@ void change_zeros(const char* key, const Zeros& was, const Zeros& is,
   changes.push_back({"sensors", key, numbers(is), numbers(was), deviation});
 }
 
+/// What negative flow has of its own.
+void change_regulators(const ExcavatorProfile& was, const JudgedFit& fit, Changes& changes) {
+  const ExcavatorProfile& is = fit.profile;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(is.pump_count); ++j) {
+    const auto pressures = [j](const ExcavatorProfile& of) {
+      const PumpRegulator& by = of.pump[j].regulator;
+      return numbers(std::array{by.full_swash_pa, by.least_swash_pa});
+    };
+    if (pressures(is) != pressures(was)) {
+      changes.push_back({fmt::format("pump[{}].negative_flow", j), "pressure", pressures(is),
+                         pressures(was), fit.machine.regulator[j].least_swash_pa.deviation});
+    }
+  }
+  const double before = was.valve.spool[0].bypass_closes_at;
+  const double now = is.valve.spool[0].bypass_closes_at;
+  if (now != before) {
+    changes.push_back({"valve.bypass", "closes_at", number(now), number(before),
+                       fit.machine.bypass_closes_at.deviation});
+  }
+}
+
 Changes changes_of(const ExcavatorProfile& was, const JudgedFit& fit) {
   Changes changes;
   const ExcavatorProfile& is = fit.profile;
@@ -187,6 +208,7 @@ Changes changes_of(const ExcavatorProfile& was, const JudgedFit& fit) {
     changes.push_back({"swing", "inertia", number(is.swing.inertia_kgm2),
                        number(was.swing.inertia_kgm2), fit.machine.swing.inertia_kgm2.deviation});
   }
+  change_regulators(was, fit, changes);
   change_control(was.control, is.control, changes);
   if (is.safety.settle_s != was.safety.settle_s) {
     changes.push_back({"safety", "settle", number(is.safety.settle_s), number(was.safety.settle_s),
@@ -262,9 +284,17 @@ std::string first_difference(const ExcavatorProfile& one, const ExcavatorProfile
     if (!close(one.pump[j].displacement_m3prev, other.pump[j].displacement_m3prev)) {
       return fmt::format("pump[{}].displacement", j);
     }
+    const PumpRegulator& a = one.pump[j].regulator;
+    const PumpRegulator& b = other.pump[j].regulator;
+    if (!close(a.full_swash_pa, b.full_swash_pa) || !close(a.least_swash_pa, b.least_swash_pa)) {
+      return fmt::format("pump[{}].negative_flow.pressure", j);
+    }
   }
   for (int axis = 0; axis < one.drive_count; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
+    if (!close(one.valve.spool[k].bypass_closes_at, other.valve.spool[k].bypass_closes_at)) {
+      return "valve.bypass.closes_at";
+    }
     if (!all_close(areas_m2(one.valve.spool[k]), areas_m2(other.valve.spool[k]))) {
       return fmt::format("valve.{}", machines::kDriveNames[k]);
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "app/identify/machine/falling_flow.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/circuit.hpp"
@@ -108,6 +109,21 @@ Open open_axis(const DriveModel& model, const McvCircuit& circuit, const ValveMo
   return open;
 }
 
+/// Flow coefficient of a line's bypass at all its openings.
+double bypass_of(const McvMachine& valve, const PumpProfile& pump, unsigned of,
+                 const ValveMoment& moment) {
+  double resistance =
+      orifice_resistance(pump.bypass_series[0]) + orifice_resistance(pump.bypass_series[1]);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(valve.actuator_count); ++k) {
+    const McvActuator& actuator = valve.actuator[k];
+    if (static_cast<unsigned>(actuator.pump) == of) {
+      resistance += orifice_resistance(
+          bypass_at(actuator, actuator.bypass_closes_at, std::abs(moment.opening[k])));
+    }
+  }
+  return 1.0 / std::sqrt(resistance);
+}
+
 /// What holds the margin at the heaviest of those that are open, as fast as it then goes, but no
 /// more than `most`: more a line has not that senses its load.
 double held_sqrt_line(const std::vector<Open>& opens, double margin_pa, double most) {
@@ -170,6 +186,10 @@ std::array<double, kDriveCount> DriveModel::speeds_mps(const ValveMoment& moment
     FlowBalance idle = circuit.line[j];
     idle.in_flow_m3ps = 0.0;
     idle.regeneration_count = 0;
+    const bool falls = pump_kind() == PumpKind::kNegativeFlow;
+    if (falls) {
+      idle.bypass = bypass_of(valve, pump[j], j, moment);
+    }
     const auto speed = [](const Open& open, double sqrt_line) {
       return open.drained_mps >= 0.0 ? open.drained_mps
                                      : speed_at(open.at_1_mps, open.coefficient, sqrt_line);
@@ -183,7 +203,7 @@ std::array<double, kDriveCount> DriveModel::speeds_mps(const ValveMoment& moment
       for (const Open& open : opens) {
         take_flow(open.at_1_mps, speed(open, tried), line);
       }
-      return flow_left(line, 1.0, tried);
+      return falls ? falling_flow_left(line, tried) : flow_left(line, 1.0, tried);
     });
     for (const Open& open : opens) {
       const double along_mps = speed(open, sqrt_line);

@@ -3,6 +3,7 @@
 /// What is found of a machine from its logs, each value with its standard deviation. SI units;
 /// ratios of duty and spool are of the full travel.
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct OpeningCurve {
   double softness = 0.0;  ///< w
   double exponent = 1.0;
 
+  /// Travel before which nothing is open, as good as.
+  [[nodiscard]] double start() const { return std::max(0.0, edge - 2.0 * softness); }
   /// Share of the full area at a travel of 0 .. 1.
   [[nodiscard]] double area_ratio(double travel) const;
   /// Travel at which so much of the full area is open, 0 .. 1.
@@ -87,6 +90,10 @@ struct SwingCoast {
 struct RegulatorEstimate {
   Estimate margin_pa;   ///< Load sensing.
   Estimate response_s;  ///< Of both.
+  // Negative flow.
+  Estimate full_swash_pa;
+  Estimate least_swash_pa;
+  Estimate least_swash_ratio;
 };
 
 /// See find_swing().
@@ -102,6 +109,9 @@ struct MachineEstimate {
   DriveEstimates drive;
   std::array<Estimate, kPumpCount> pump_flow_factor;  ///< Of the profile's displacement.
   std::array<RegulatorEstimate, kPumpCount> regulator;
+  // With negative flow.
+  Estimate bypass_closes_at;         ///< Opening of the profile's model.
+  double closes_at_factor = 1.0;     ///< Of the profile's, taken as a share of the travel instead.
   std::vector<std::string> missing;  ///< What the logs do not support, a sentence each.
 };
 

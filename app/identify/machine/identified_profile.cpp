@@ -103,6 +103,13 @@ void set_regulator(const RegulatorEstimate& found, PumpRegulator& regulator) {
   if (found.response_s.known) {
     regulator.response_s = found.response_s.value;
   }
+  if (found.full_swash_pa.known && found.least_swash_pa.known) {
+    regulator.full_swash_pa = found.full_swash_pa.value;
+    regulator.least_swash_pa = found.least_swash_pa.value;
+  }
+  if (found.least_swash_ratio.known) {
+    regulator.least_swash_ratio = found.least_swash_ratio.value;
+  }
 }
 
 /// What the profile's lag has beyond its spool's and its oil's is its pump's, where that sets its
@@ -126,6 +133,9 @@ ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstima
     set_side(drive, true, pump_s, result.valve.answer[k].extend);
     set_side(drive, false, pump_s, result.valve.answer[k].retract);
     set_areas(axis, drive, result);
+    if (machine.bypass_closes_at.known) {
+      result.valve.spool[k].bypass_closes_at = std::min(1.0, machine.bypass_closes_at.value);
+    }
     if (axis == kSwing) {
       continue;
     }

@@ -82,9 +82,27 @@ void tell_missing(const DriveModel& model, MachineEstimate& machine) {
   }
 }
 
+void tell_falling(MachineEstimate& machine) {
+  if (!machine.bypass_closes_at.known) {
+    machine.missing.emplace_back("the opening at which the bypass is closed keeps its old value");
+  }
+  if (!machine.regulator[0].full_swash_pa.known) {
+    machine.missing.emplace_back(
+        "the pumps' two pressures keep their old values: no drive has moved between them for long "
+        "enough");
+  }
+  machine.missing.emplace_back(
+      "the pumps' least swash and response, and the bypass' orifices, keep their old values: no "
+      "line's pressure is in the logs");
+}
+
 /// What of its regulator no log says, as pressures of lines are on no bus.
 void tell_regulators(const DriveModel& model, MachineEstimate& machine) {
-  if (model.pump_kind() != PumpKind::kLoadSensing) {
+  if (model.pump_kind() == PumpKind::kPositive) {
+    return;
+  }
+  if (model.pump_kind() == PumpKind::kNegativeFlow) {
+    tell_falling(machine);
     return;
   }
   for (int j = 0; j < model.valve.pump_count; ++j) {

@@ -102,6 +102,7 @@ SteadyPoint point_of(const LogSegment& segment, const std::array<double, kDriveC
   point.spool = point.all_spool[axis];
   point.speed_mps = point.all_speed_mps[axis];
   point.stroke_m = segment.axis[axis].stroke_m[at];
+  point.spool_rise_ps = slope(segment.axis[axis].spool, at);
   point.cap_rise_paps = slope(segment.axis[axis].cap_pa, at);
   point.rod_rise_paps = slope(segment.axis[axis].rod_pa, at);
   point.speed_spread_mps = (axis == kSwing ? kSwingNoise_mps : kSpeedNoise_mps) +

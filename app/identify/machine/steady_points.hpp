@@ -25,6 +25,7 @@ struct SteadyPoint {
   std::array<double, kPumpCount> swash{};
   double engine_radps = 0.0;
   double stroke_m = 0.0;
+  double spool_rise_ps = 0.0;
   double cap_rise_paps = 0.0;  ///< Of its own pressures.
   double rod_rise_paps = 0.0;
   std::size_t block = 0;  ///< Stretch of the logs whose errors hang together.

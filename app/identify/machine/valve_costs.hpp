@@ -21,9 +21,12 @@ enum SideParameter : std::size_t {
   kSideSize
 };
 inline constexpr std::size_t kZeroSize = 2;  ///< Cap, rod, MPa.
+/// The regulators' block: logarithms of closes_at_factor and felt_factor.
+inline constexpr std::size_t kRegulatorSize = 2;
 inline constexpr double kPaPerMpa = 1e6;
 
-inline ValveTry try_of(const double* side, const double* zero, const double* pump) {
+inline ValveTry try_of(const double* side, const double* zero, const double* pump,
+                       const double* regulator = nullptr) {
   ValveTry tried;
   tried.curve = {side[kEdge], std::exp(side[kLogSoftness]), side[kExponent]};
   tried.coefficient_factor = std::exp(side[kLogCoefficient]);
@@ -31,6 +34,10 @@ inline ValveTry try_of(const double* side, const double* zero, const double* pum
   tried.cap_zero_pa = kPaPerMpa * zero[0];
   tried.rod_zero_pa = kPaPerMpa * zero[1];
   tried.pump_flow_factor = pump[0];
+  if (regulator != nullptr) {
+    tried.closes_at_factor = std::exp(regulator[0]);
+    tried.felt_factor = std::exp(regulator[1]);
+  }
   return tried;
 }
 
@@ -40,17 +47,30 @@ struct PointSpread {
   double out_mps = 1.0;
 };
 
-struct PointCost {
-  const PreparedPoint* of;
-  const PointSpread* spread;
+class PointCost {
+ public:
+  PointCost(const PreparedPoint* point, const PointSpread* its_spread)
+      : of(point), spread(its_spread) {}
 
   bool operator()(const double* side, const double* zero, const double* pump,
                   double* residuals) const {
-    const ValveTry tried = try_of(side, zero, pump);
+    return tell(try_of(side, zero, pump), residuals);
+  }
+  /// With negative flow.
+  bool operator()(const double* side, const double* zero, const double* pump,
+                  const double* regulator, double* residuals) const {
+    return tell(try_of(side, zero, pump, regulator), residuals);
+  }
+
+ private:
+  bool tell(const ValveTry& tried, double* residuals) const {
     residuals[0] = of->says_speed() ? of->speed_error(tried).error_mps / spread->speed_mps : 0.0;
     residuals[1] = of->drains() ? of->out_error_mps(tried) / spread->out_mps : 0.0;
     return true;
   }
+
+  const PreparedPoint* of;
+  const PointSpread* spread;
 };
 
 /// One value about its mean.

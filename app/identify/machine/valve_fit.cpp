@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/identify/machine/valve_fit.hpp"
 
-#include <ceres/ceres.h>
-
 #include <Eigen/Cholesky>
-#include <Eigen/Dense>
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 
-#include "app/identify/machine/valve_costs.hpp"
+#include "app/identify/machine/valve_problem.hpp"
 
 namespace graben::identify {
 namespace {
-
-constexpr std::size_t kSides = 2 * kDriveCount;
-// Among all values: sides one after the other, then zeros, then pumps.
-constexpr std::size_t kZerosAt = kSides * kSideSize;
-constexpr std::size_t kPumpsAt = kZerosAt + kDriveCount * kZeroSize;
-constexpr std::size_t kAll = kPumpsAt + kPumpCount;
-using Square = Eigen::Matrix<double, kAll, kAll>;
-using Row = Eigen::Matrix<double, kAll, 1>;
 
 constexpr double kSpeedShare = 0.02;  ///< Of a speed, that the model is off.
 constexpr double kOutShare = 0.06;    ///< The same by the draining side.
@@ -33,115 +19,85 @@ constexpr double kLeastSoftness = 0.001;
 constexpr double kMostSoftness = 0.15;
 constexpr double kUsualSoftness = 0.008;
 constexpr int kSteps = 60;
+constexpr double kMostRegulator = 0.9;  ///< Logarithm of a regulator's factor.
 /// A side is driven where a steady point of it was at least so fast.
 constexpr double kMoves_mps = 0.01;
-/// A value is known where what is left open is less than this share of what was open before.
-constexpr double kLearnt = 0.5;
-/// The model is not the machine (hoses, a soft edge of another shape): what is left open is so much
-/// more than the points say, and no travel is known better than that. By hidden machines.
-constexpr double kModel = 1.5;
-constexpr double kTravelOff = 0.002;
 
-std::size_t side_of(int axis, bool extends) {
-  return 2 * static_cast<std::size_t>(axis) + (extends ? 0 : 1);
+/// Where a block's values stand among all.
+std::map<const double*, std::size_t> places_of(const Blocks& blocks, std::size_t drives) {
+  std::map<const double*, std::size_t> places;
+  for (std::size_t side = 0; side < 2 * drives; ++side) {
+    places[blocks.side[side].data()] = side * kSideSize;
+  }
+  for (std::size_t axis = 0; axis < drives; ++axis) {
+    places[blocks.zero[axis].data()] = kZerosAt + axis * kZeroSize;
+  }
+  for (std::size_t j = 0; j < kPumpCount; ++j) {
+    places[blocks.pump[j].data()] = kPumpsAt + j;
+  }
+  places[blocks.regulator.data()] = kRegulatorAt;
+  return places;
 }
 
-struct Blocks {
-  std::array<std::array<double, kSideSize>, kSides> side{};
-  std::array<std::array<double, kZeroSize>, kDriveCount> zero{};
-  std::array<std::array<double, 1>, kPumpCount> pump{};
-};
+}  // namespace
 
-class Fit {
- public:
-  Fit(const std::vector<PreparedPoint>& points, const ValvePriors& priors,
-      const MachineEstimate& machine, std::size_t drives)
-      : points_(points), priors_(priors), drives_(drives) {
-    start(machine);
-    spread_.resize(points.size());
-    for (std::size_t n = 0; n < points.size(); ++n) {
-      const PreparedPoint& of = points[n];
-      const int axis = of.point().axis;
+ValveProblem::ValveProblem(const std::vector<PreparedPoint>& points, const ValvePriors& priors,
+                           const MachineEstimate& machine, const DriveModel& model)
+    : points_(points),
+      priors_(priors),
+      drives_(model.drives()),
+      falls_(model.pump_kind() == PumpKind::kNegativeFlow) {
+  start(machine);
+  spread_.resize(points.size());
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const PreparedPoint& of = points[n];
+    const int axis = of.point().axis;
+    auto* const cost = new PointCost(&of, &spread_[n]);
+    double* const side = blocks_.side[side_of(axis, of.extends())].data();
+    double* const zero = blocks_.zero[static_cast<std::size_t>(axis)].data();
+    double* const pump = blocks_.pump[static_cast<std::size_t>(of.pump())].data();
+    if (falls_) {
+      problem_.AddResidualBlock(
+          new ceres::NumericDiffCostFunction<PointCost, ceres::CENTRAL, 2, kSideSize, kZeroSize, 1,
+                                             kRegulatorSize>(cost, ceres::TAKE_OWNERSHIP, 2,
+                                                             steps()),
+          new ceres::CauchyLoss(2.0), side, zero, pump, blocks_.regulator.data());
+    } else {
       problem_.AddResidualBlock(
           new ceres::NumericDiffCostFunction<PointCost, ceres::CENTRAL, 2, kSideSize, kZeroSize, 1>(
-              new PointCost{&of, &spread_[n]}, ceres::TAKE_OWNERSHIP, 2, steps()),
-          new ceres::CauchyLoss(2.0), blocks_.side[side_of(axis, of.extends())].data(),
-          blocks_.zero[static_cast<std::size_t>(axis)].data(),
-          blocks_.pump[static_cast<std::size_t>(of.pump())].data());
-    }
-    add_priors(machine);
-  }
-
-  void solve() {
-    for (auto& side : blocks_.side) {
-      bound(side.data(), kEdge, 0.02, 0.85);
-      bound(side.data(), kLogSoftness, std::log(kLeastSoftness), std::log(kMostSoftness));
-      bound(side.data(), kExponent, 0.6, 3.0);
-    }
-    for (auto& pump : blocks_.pump) {
-      bound(pump.data(), 0, 0.6, 1.4);
-    }
-    ceres::Solver::Options options;
-    options.max_num_iterations = kSteps;
-    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    for (int pass = 0; pass < kPasses; ++pass) {
-      weigh();
-      ceres::Solver::Summary summary;
-      ceres::Solve(options, &problem_, &summary);
-    }
-    find_covariance();
-  }
-
-  /// What was found, into `machine`.
-  void tell(const DriveModel& model, MachineEstimate& machine) const;
-
- private:
-  static ceres::NumericDiffOptions steps() {
-    ceres::NumericDiffOptions options;
-    options.relative_step_size = 1e-5;
-    return options;
-  }
-  void bound(double* block, std::size_t at, double least, double most) {
-    if (problem_.HasParameterBlock(block)) {
-      problem_.SetParameterLowerBound(block, static_cast<int>(at), least);
-      problem_.SetParameterUpperBound(block, static_cast<int>(at), most);
+              cost, ceres::TAKE_OWNERSHIP, 2, steps()),
+          new ceres::CauchyLoss(2.0), side, zero, pump);
     }
   }
-  template <std::size_t size>
-  void prior(std::array<double, size>& block, std::size_t at, double mean, double deviation) {
-    constexpr int kSize = static_cast<int>(size);
-    problem_.AddResidualBlock(
-        new ceres::NumericDiffCostFunction<PriorCost, ceres::CENTRAL, 1, kSize>(
-            new PriorCost{at, mean, deviation}),
-        nullptr, block.data());
-  }
-  void start(const MachineEstimate& machine);
-  void start_at_edges();
-  void add_priors(const MachineEstimate& machine);
-  void find_covariance();
-  void weigh();
-  [[nodiscard]] double deviation(std::size_t at) const {
-    return std::sqrt(
-        std::max(0.0, covariance_(static_cast<Eigen::Index>(at), static_cast<Eigen::Index>(at))));
-  }
-  [[nodiscard]] Estimate found(double value, std::size_t at, double before) const {
-    const double left = deviation(at);
-    return {value, kModel * left, left < kLearnt * before};
-  }
-  void tell_side(const DriveModel& model, std::size_t side, SideEstimate& to) const;
+  add_priors(machine);
+}
 
-  const std::vector<PreparedPoint>& points_;
-  ValvePriors priors_;
-  std::size_t drives_;
-  Blocks blocks_;
-  std::vector<PointSpread> spread_;
-  ceres::Problem problem_;
-  Square covariance_ = Square::Zero();
-};
+void ValveProblem::solve() {
+  for (auto& side : blocks_.side) {
+    bound(side.data(), kEdge, 0.02, 0.85);
+    bound(side.data(), kLogSoftness, std::log(kLeastSoftness), std::log(kMostSoftness));
+    bound(side.data(), kExponent, 0.6, 3.0);
+  }
+  for (auto& pump : blocks_.pump) {
+    bound(pump.data(), 0, 0.6, 1.4);
+  }
+  for (std::size_t at = 0; at < kRegulatorSize; ++at) {
+    bound(blocks_.regulator.data(), at, -kMostRegulator, kMostRegulator);
+  }
+  ceres::Solver::Options options;
+  options.max_num_iterations = kSteps;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    weigh();
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+  }
+  find_covariance();
+}
 
-void Fit::start(const MachineEstimate& machine) {
+void ValveProblem::start(const MachineEstimate& machine) {
   for (std::size_t axis = 0; axis < drives_; ++axis) {
     const DriveEstimate& drive = machine.drive[axis];
     for (const bool extends : {true, false}) {
@@ -161,7 +117,7 @@ void Fit::start(const MachineEstimate& machine) {
 
 /// Between the farthest spool that moves nothing and the nearest that moves its drive: from there
 /// the fit need not look for an edge through flat ground.
-void Fit::start_at_edges() {
+void ValveProblem::start_at_edges() {
   std::array<double, kSides> nearest{};
   nearest.fill(1.0);
   for (const PreparedPoint& of : points_) {
@@ -169,7 +125,7 @@ void Fit::start_at_edges() {
     const double along_mps = of.extends() ? point.speed_mps : -point.speed_mps;
     if (along_mps > 0.6 * kMoves_mps) {
       double& at = nearest[side_of(point.axis, of.extends())];
-      at = std::min(at, std::abs(point.spool));
+      at = std::min(at, of.edge_before(std::abs(point.spool)));
     }
   }
   for (std::size_t side = 0; side < kSides; ++side) {
@@ -181,14 +137,15 @@ void Fit::start_at_edges() {
 
 /// Where the load takes nearly all that the line has, a small error of the line's pressure is a
 /// large one of the speed: such points say less.
-void Fit::weigh() {
+void ValveProblem::weigh() {
   for (std::size_t n = 0; n < points_.size(); ++n) {
     const PreparedPoint& of = points_[n];
     const SteadyPoint& point = of.point();
     const auto axis = static_cast<std::size_t>(point.axis);
     const ValveTry tried =
         try_of(blocks_.side[side_of(point.axis, of.extends())].data(), blocks_.zero[axis].data(),
-               blocks_.pump[static_cast<std::size_t>(of.pump())].data());
+               blocks_.pump[static_cast<std::size_t>(of.pump())].data(),
+               falls_ ? blocks_.regulator.data() : nullptr);
     const double speed_mps = std::abs(point.speed_mps);
     const double by_line_mps = of.speed_error(tried).per_force_mpspn * kLine_pa * of.fed_area_m2();
     spread_[n].speed_mps =
@@ -197,7 +154,7 @@ void Fit::weigh() {
   }
 }
 
-void Fit::add_priors(const MachineEstimate& machine) {
+void ValveProblem::add_priors(const MachineEstimate& machine) {
   for (std::size_t axis = 0; axis < drives_; ++axis) {
     const DriveEstimate& drive = machine.drive[axis];
     for (const bool extends : {true, false}) {
@@ -221,27 +178,16 @@ void Fit::add_priors(const MachineEstimate& machine) {
   for (std::size_t j = 0; j < kPumpCount; ++j) {
     prior(blocks_.pump[j], 0, machine.pump_flow_factor[j].value, priors_.pump_flow);
   }
-}
-
-/// Where a block's values stand among all.
-std::map<const double*, std::size_t> places_of(const Blocks& blocks, std::size_t drives) {
-  std::map<const double*, std::size_t> places;
-  for (std::size_t side = 0; side < 2 * drives; ++side) {
-    places[blocks.side[side].data()] = side * kSideSize;
+  if (falls_) {
+    prior(blocks_.regulator, 0, 0.0, priors_.log_closes_at);
+    prior(blocks_.regulator, 1, 0.0, priors_.log_felt);
   }
-  for (std::size_t axis = 0; axis < drives; ++axis) {
-    places[blocks.zero[axis].data()] = kZerosAt + axis * kZeroSize;
-  }
-  for (std::size_t j = 0; j < kPumpCount; ++j) {
-    places[blocks.pump[j].data()] = kPumpsAt + j;
-  }
-  return places;
 }
 
 /// What the points leave open as they are weighed, H^-1, and what shows that they hang together or
 /// that the model is not the machine: H^-1 (sum of g g^T over blocks of time) H^-1. Added up, the
 /// second is never taken for less than the first.
-void Fit::find_covariance() {
+void ValveProblem::find_covariance() {
   const auto places = places_of(blocks_, drives_);
   Square curvature = Square::Zero();
   std::map<std::size_t, Row> gradient;
@@ -251,8 +197,9 @@ void Fit::find_covariance() {
     std::vector<double*> blocks;
     problem_.GetParameterBlocksForResidualBlock(ids[n], &blocks);
     const int rows = problem_.GetCostFunctionForResidualBlock(ids[n])->num_residuals();
-    std::array<std::array<double, 2 * kSideSize>, 3> jacobian{};  // The largest that there are.
-    std::array<double*, 3> to = {jacobian[0].data(), jacobian[1].data(), jacobian[2].data()};
+    std::array<std::array<double, 2 * kSideSize>, 4> jacobian{};  // The largest that there are.
+    std::array<double*, 4> to = {jacobian[0].data(), jacobian[1].data(), jacobian[2].data(),
+                                 jacobian[3].data()};
     std::array<double, 2> residual{};
     double cost = 0.0;
     problem_.EvaluateResidualBlock(ids[n], true, &cost, residual.data(), to.data());
@@ -284,90 +231,6 @@ void Fit::find_covariance() {
   covariance_ = inverse + inverse * gradients * inverse;
 }
 
-void Fit::tell_side(const DriveModel& model, std::size_t side, SideEstimate& to) const {
-  const auto& block = blocks_.side[side];
-  const std::size_t first = side * kSideSize;
-  to.edge = found(block[kEdge], first + kEdge, priors_.edge);
-  const double softness = std::exp(block[kLogSoftness]);
-  to.softness = found(softness, first + kLogSoftness, priors_.log_softness);
-  to.softness.deviation *= softness;
-  to.exponent = found(block[kExponent], first + kExponent, priors_.exponent);
-  to.coefficient_factor =
-      found(std::exp(block[kLogCoefficient]), first + kLogCoefficient, priors_.log_coefficient);
-  to.coefficient_factor.deviation *= to.coefficient_factor.value;
-  to.out_area_factor =
-      found(std::exp(block[kLogOutArea]), first + kLogOutArea, priors_.log_out_area);
-  to.out_area_factor.deviation *= to.out_area_factor.value;
-  if (model.pump_kind() == PumpKind::kLoadSensing) {
-    to.in_area_factor = to.coefficient_factor.value;
-    const double whole = coefficient_of(model, static_cast<int>(side) / 2, side % 2 == 0,
-                                        to.in_area_factor, to.out_area_factor.value);
-    to.coefficient_factor.deviation *= whole / to.in_area_factor;
-    to.coefficient_factor.value = whole;
-  }
-  // Of the travel at each opening, by the curve's three values.
-  constexpr double kStep = 1e-4;
-  const Eigen::Matrix3d covariance =
-      covariance_.block<3, 3>(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(first));
-  to.duty.clear();
-  to.duty_deviation.clear();
-  for (const double opening : kTableOpenings) {
-    const double area = std::pow(opening, model.metering.opening_exponent);
-    to.duty.push_back(to.curve().travel_at(area));
-    Eigen::Vector3d slope;
-    for (std::size_t at = 0; at <= kExponent; ++at) {
-      auto moved = block;
-      moved[at] += kStep;
-      const auto travel = [area](const auto& of) {
-        return OpeningCurve{of[kEdge], std::exp(of[kLogSoftness]), of[kExponent]}.travel_at(area);
-      };
-      slope[static_cast<Eigen::Index>(at)] = (travel(moved) - travel(block)) / kStep;
-    }
-    to.duty_deviation.push_back(kModel * std::sqrt(std::max(0.0, slope.dot(covariance * slope))) +
-                                kTravelOff);
-  }
-}
-
-void Fit::tell(const DriveModel& model, MachineEstimate& machine) const {
-  std::array<double, kSides> least{};
-  std::array<double, kSides> most{};
-  for (const PreparedPoint& of : points_) {
-    const SteadyPoint& point = of.point();
-    const double along_mps = of.extends() ? point.speed_mps : -point.speed_mps;
-    if (along_mps > kMoves_mps) {
-      const std::size_t side = side_of(point.axis, of.extends());
-      const double travel = std::abs(point.spool);
-      least[side] = least[side] == 0.0 ? travel : std::min(least[side], travel);
-      most[side] = std::max(most[side], travel);
-    }
-  }
-  for (std::size_t axis = 0; axis < drives_; ++axis) {
-    DriveEstimate& drive = machine.drive[axis];
-    for (const bool extends : {true, false}) {
-      const std::size_t side = side_of(static_cast<int>(axis), extends);
-      drive.side(extends).driven_least = least[side];
-      drive.side(extends).driven_most = most[side];
-      if (most[side] > 0.0) {
-        tell_side(model, side, drive.side(extends));
-      }
-    }
-    const std::size_t zero = kZerosAt + axis * kZeroSize;
-    const auto in_pa = [&](std::size_t at) {
-      Estimate estimate = found(blocks_.zero[axis][at], zero + at, priors_.zero_pa / kPaPerMpa);
-      estimate.value *= kPaPerMpa;
-      estimate.deviation *= kPaPerMpa;
-      return estimate;
-    };
-    drive.cap_zero_pa = in_pa(0);
-    drive.rod_zero_pa = in_pa(1);
-  }
-  for (std::size_t j = 0; j < kPumpCount; ++j) {
-    machine.pump_flow_factor[j] = found(blocks_.pump[j][0], kPumpsAt + j, priors_.pump_flow);
-  }
-}
-
-}  // namespace
-
 void fit_valves(const DriveModel& model, const std::vector<SteadyPoint>& points,
                 const ValvePriors& priors, MachineEstimate& machine) {
   std::vector<PreparedPoint> prepared;
@@ -375,9 +238,9 @@ void fit_valves(const DriveModel& model, const std::vector<SteadyPoint>& points,
   for (const SteadyPoint& point : points) {
     prepared.emplace_back(model, point, machine.drive);
   }
-  Fit fit(prepared, priors, machine, model.drives());
-  fit.solve();
-  fit.tell(model, machine);
+  ValveProblem problem(prepared, priors, machine, model);
+  problem.solve();
+  problem.tell(model, machine);
 }
 
 }  // namespace graben::identify

@@ -32,6 +32,8 @@ struct ValvePriors {
   double log_out_area = 0.35;
   double zero_pa = 0.8e6;
   double pump_flow = 0.10;
+  double log_closes_at = 0.12;
+  double log_felt = 0.12;
 };
 
 /// Fits what the points support into `machine`, which comes with the profile's values and with

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/identify/machine/falling_flow.hpp"
+#include "firmware/hydraulics/flow.hpp"
 #include "firmware/mcv/evaluation.hpp"
 #include "firmware/numeric/constants.hpp"
 
@@ -25,6 +27,15 @@ constexpr double kSays_pa = 1.0e6;
 constexpr double kCutOff_pa = 2.0e6;
 /// A pressure that rises faster takes oil that moves nothing.
 constexpr double kRise_paps = 12e6;
+// Of a line that gives way steeply, the speed is sought rather than taken from its slope.
+constexpr double kSteep = 1.3;
+constexpr double kFaster_mps = 0.02;
+constexpr double kSame_mps = 1e-8;
+constexpr int kDoublings = 6;
+constexpr int kPositions = 30;
+constexpr int kHalvings = 20;
+/// A pump is later than a spool that goes on opening: where the bypass closes that is much.
+constexpr double kRamp_ps = 0.03;
 /// As fast as that, of what the pump has left for it, a drive shows the pump and not its edge.
 constexpr double kOfMost = 0.95;
 
@@ -77,6 +88,12 @@ PreparedPoint::PreparedPoint(const DriveModel& model, const SteadyPoint& point,
   const double fed_pa = extends() ? cap_pa : rod_pa;
   fed_ = fed_pa > kFed_pa;
   drains_ = drained_pa > kDrained_pa && std::abs(point.speed_mps) > kStands_mps;
+  if (model.pump_kind() == PumpKind::kNegativeFlow) {
+    actuator_ = &model.valve.actuator[axis];
+    fed_ = fed_ && std::abs(point.spool_rise_ps) < kRamp_ps;
+    bypass_rest_ =
+        orifice_resistance(others_.bypass) - orifice_resistance(actuator_->bypass_closed);
+  }
   if (model.pump_kind() == PumpKind::kLoadSensing) {
     sense_loads(model, drives);
     // Nearer to the relief the line may have less than its margin over the load.
@@ -147,8 +164,14 @@ FlowBalance PreparedPoint::line_at(double flow_factor, double speed_mps) const {
   return line;
 }
 
-double PreparedPoint::sqrt_line(double flow_factor, double speed_mps) const {
-  FlowBalance line = line_at(flow_factor, speed_mps);
+double PreparedPoint::sqrt_line(const ValveTry& tried, double speed_mps) const {
+  FlowBalance line = line_at(tried.pump_flow_factor, speed_mps);
+  if (actuator_ != nullptr) {
+    const double start = tried.curve.start();
+    line.bypass = bypass_with(std::max(0.0, std::abs(point_.spool) - start) / (1.0 - start),
+                              tried.closes_at_factor * actuator_->bypass_closes_at);
+    return falling_sqrt_pressure(line, tried.felt_factor);
+  }
   // Many more than it takes: kPressureSteps end it.
   Work work{1000};
   line.work = &work;
@@ -163,7 +186,74 @@ double PreparedPoint::force_n(const ValveTry& tried, double speed_mps) const {
   CircuitAxis now = axis_;
   now.load_force_n = extends() ? load_n : -load_n;
   now.q_out_m3ps = speed_mps * axis_.q_out_m3ps;
-  return drive_force(now, 1.0, sqrt_line(tried.pump_flow_factor, speed_mps)).force_n;
+  return drive_force(now, 1.0, sqrt_line(tried, speed_mps)).force_n;
+}
+
+double PreparedPoint::edge_before(double travel) const {
+  if (actuator_ == nullptr) {
+    return travel;
+  }
+  const auto axis = static_cast<std::size_t>(point_.axis);
+  const double fed_pa = std::max(0.0, extends() ? point_.cap_pa[axis] : point_.rod_pa[axis]);
+  const FlowBalance line =
+      line_at(1.0, std::max(0.0, extends() ? point_.speed_mps : -point_.speed_mps));
+  double low = 0.0;
+  double high = 1.0;
+  for (int n = 0; n < kHalvings; ++n) {
+    const double closed = 0.5 * (low + high);
+    FlowBalance tried = line;
+    tried.bypass = bypass_with(closed * actuator_->bypass_closes_at, actuator_->bypass_closes_at);
+    const double sqrt_pa = falling_sqrt_pressure(tried, 1.0);
+    (sqrt_pa * sqrt_pa < fed_pa ? low : high) = closed;
+  }
+  const double closes = low * actuator_->bypass_closes_at;
+  return (travel - closes) / (1.0 - closes);
+}
+
+double PreparedPoint::bypass_with(double behind_start, double closes_at) const {
+  const double own = bypass_at(*actuator_, closes_at, behind_start);
+  return 1.0 / std::sqrt(bypass_rest_ + orifice_resistance(own));
+}
+
+double PreparedPoint::settled_mps(const ValveTry& tried, double coefficient,
+                                  double near_mps) const {
+  const auto faster_mps = [&](double speed_mps) {
+    return coefficient * std::sqrt(std::max(0.0, force_n(tried, speed_mps))) - speed_mps;
+  };
+  double low = 0.0;
+  double low_left = faster_mps(low);
+  if (low_left <= 0.0) {
+    return 0.0;
+  }
+  double high = near_mps + kFaster_mps;
+  double high_left = faster_mps(high);
+  for (int n = 0; n < kDoublings && high_left > 0.0; ++n) {
+    low = high;
+    low_left = high_left;
+    high *= 2.0;
+    high_left = faster_mps(high);
+  }
+  // By false positions, an end that stays counting half.
+  int stayed = 0;
+  for (int n = 0; n < kPositions && high - low > kSame_mps; ++n) {
+    const double middle = (low * high_left - high * low_left) / (high_left - low_left);
+    const double left = faster_mps(middle);
+    if (left > 0.0) {
+      low = middle;
+      low_left = left;
+      high_left *= stayed > 0 ? 0.5 : 1.0;
+      stayed = 1;
+    } else {
+      high = middle;
+      high_left = left;
+      low_left *= stayed < 0 ? 0.5 : 1.0;
+      stayed = -1;
+    }
+    if (std::abs(left) < kSame_mps) {
+      return middle;
+    }
+  }
+  return 0.5 * (low + high);
 }
 
 SpeedError PreparedPoint::speed_error(const ValveTry& tried) const {
@@ -179,6 +269,9 @@ SpeedError PreparedPoint::speed_error(const ValveTry& tried) const {
   const double force = force_n(tried, speed_mps);
   const double faster = force_n(tried, speed_mps + kStep_mps);
   const double closing = std::max(0.0, (force - faster) / kStep_mps);
+  if (force <= 0.0 && actuator_ != nullptr) {
+    return {settled_mps(tried, coefficient, speed_mps) - seen_mps, 0.0};
+  }
   if (force <= 0.0) {
     // Even without a valve it would have to be slower by this.
     const double slower_mps = closing > 0.0 ? force / closing : -speed_mps;
@@ -187,6 +280,9 @@ SpeedError PreparedPoint::speed_error(const ValveTry& tried) const {
   const double root = std::sqrt(force);
   const double slope = coefficient / (2.0 * root);
   const double own = 1.0 + slope * closing;
+  if (actuator_ != nullptr && own > kSteep) {
+    return {settled_mps(tried, coefficient, speed_mps) - seen_mps, slope / own};
+  }
   return {(coefficient * root - seen_mps) / own, slope / own};
 }
 
@@ -233,8 +329,10 @@ std::vector<CurvePoint> curve_points(const DriveModel& model, const std::vector<
     ValveTry tried;
     tried.cap_zero_pa = drive.cap_zero_pa.value;
     tried.rod_zero_pa = drive.rod_zero_pa.value;
+    tried.curve = drive.side(prepared.extends()).curve();
     tried.pump_flow_factor =
         found.pump_flow_factor[static_cast<std::size_t>(prepared.pump())].value;
+    tried.closes_at_factor = found.closes_at_factor;
     const double share = prepared.coefficient_share(tried);
     if (share >= 0.0) {
       // Both edges open alike: the coefficient's share is that of the feeding one.

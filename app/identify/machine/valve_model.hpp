@@ -16,6 +16,9 @@ struct ValveTry {
   double cap_zero_pa = 0.0;
   double rod_zero_pa = 0.0;
   double pump_flow_factor = 1.0;
+  // With negative flow, of the profile's.
+  double closes_at_factor = 1.0;
+  double felt_factor = 1.0;  ///< Of both pressures.
 };
 
 struct SpeedError {
@@ -31,6 +34,9 @@ class PreparedPoint {
 
   [[nodiscard]] const SteadyPoint& point() const { return point_; }
   [[nodiscard]] bool extends() const { return point_.spool > 0.0; }
+  /// Where its side's edge is, were `travel` the first that moves it: with negative flow a load is
+  /// not moved before the bypass is so far closed.
+  [[nodiscard]] double edge_before(double travel) const;
   [[nodiscard]] int pump() const { return pump_; }
   [[nodiscard]] double fed_area_m2() const { return axis_.inlet_area_m2; }
   /// Speed along its side, of the model less measured; to first order that of a model that moves at
@@ -57,8 +63,13 @@ class PreparedPoint {
   [[nodiscard]] double metered_mps(const ValveTry& tried, double area_ratio) const;
   [[nodiscard]] double most_mps(const ValveTry& tried) const;
   [[nodiscard]] FlowBalance line_at(double flow_factor, double speed_mps) const;
+  /// Of the line, with its own closed so far behind its start.
+  [[nodiscard]] double bypass_with(double behind_start, double closes_at) const;
+  /// Speed at which v = c_L sqrt(F(v)); looked for about `near_mps`.
+  [[nodiscard]] double settled_mps(const ValveTry& tried, double coefficient,
+                                   double near_mps) const;
   [[nodiscard]] double force_n(const ValveTry& tried, double speed_mps) const;
-  [[nodiscard]] double sqrt_line(double flow_factor, double speed_mps) const;
+  [[nodiscard]] double sqrt_line(const ValveTry& tried, double speed_mps) const;
 
   SteadyPoint point_;
   CircuitAxis axis_;    ///< At 1 m/s: flows are those of the speed.
@@ -76,8 +87,11 @@ class PreparedPoint {
   bool bounds_ = false;   ///< Its load takes more than the margin meters.
   double in_m3ps_ = 0.0;  ///< C_d A_in sqrt(2 / rho) at full opening, m^3/(s sqrt(Pa)).
   double margin_pa_ = 0.0;
-  bool returns_ = false;    ///< Oil comes back, and with it the pump is not the limit.
-  double others_pa_ = 0.0;  ///< Heaviest load of the line's others; 0: none moves.
+  bool returns_ = false;  ///< Oil comes back, and with it the pump is not the limit.
+  // With negative flow.
+  const McvActuator* actuator_ = nullptr;
+  double bypass_rest_ = 0.0;  ///< Resistance of the line's bypass without its own.
+  double others_pa_ = 0.0;    ///< Heaviest load of the line's others; 0: none moves.
 };
 
 /// Velocity coefficient of a side, of the profile's, whose areas are these factors of the

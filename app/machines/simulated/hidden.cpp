@@ -27,6 +27,9 @@ enum class Figure : std::uint32_t {
   kPressureZero,
   kMargin,
   kResponse,
+  kFeltPressure,
+  kLeastSwash,
+  kClosesAt,
 };
 
 class Hiding {
@@ -110,6 +113,9 @@ void hide_regulator(plant::ExcavatorPlantProfile& plant, const Hiding& hiding, s
   PumpRegulator& by = plant.machine.pump[pump].regulator;
   by.margin_pa *= hiding.factor(Figure::kMargin, pump, ranges.margin);
   by.response_s *= hiding.factor(Figure::kResponse, pump, ranges.response);
+  by.full_swash_pa *= hiding.factor(Figure::kFeltPressure, 2 * pump, ranges.felt_pressure);
+  by.least_swash_pa *= hiding.factor(Figure::kFeltPressure, 2 * pump + 1, ranges.felt_pressure);
+  by.least_swash_ratio *= hiding.factor(Figure::kLeastSwash, pump, ranges.least_swash);
 }
 
 }  // namespace
@@ -136,6 +142,9 @@ SimulatedExcavator hidden_machine(const SimulatedExcavator& nominal, std::uint64
   plant.bulk_modulus_pa = hiding.within(Figure::kOil, 0, ranges.bulk_modulus_pa);
   for (std::size_t pump = 0; pump < kPumpCount; ++pump) {
     hide_regulator(plant, hiding, pump, ranges);
+  }
+  for (plant::SpoolDynamics& spool : plant.spool) {
+    spool.bypass_closes_at *= hiding.factor(Figure::kClosesAt, 0, ranges.closes_at);
   }
   return machine;
 }

@@ -32,6 +32,9 @@ struct HiddenRanges {
   // Of pumps that set their own swash, each by itself.
   double margin = 0.20;
   double response = 0.30;
+  double felt_pressure = 0.15;  ///< Each of both.
+  double least_swash = 0.20;
+  double closes_at = 0.20;  ///< Of all spools alike.
 };
 
 /// The nominal machine with the plant of this seed: no figure of the controller's profile changes.

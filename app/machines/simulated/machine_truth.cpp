@@ -78,6 +78,7 @@ MachineTruth truth_of(const plant::ExcavatorPlantProfile& plant) {
   }
   truth.pump_flow_factor = plant.pump_flow_ratio;
   truth.bulk_modulus_pa = plant.bulk_modulus_pa;
+  truth.bypass_closes_at = plant.spool[0].bypass_closes_at;
   for (std::size_t pump = 0; pump < kPumpCount; ++pump) {
     truth.regulator[pump] = plant.machine.pump[pump].regulator;
   }

@@ -43,6 +43,8 @@ struct MachineTruth {
   std::array<double, kPumpCount> pump_flow_factor{};  ///< On the nominal displacement.
   double bulk_modulus_pa = 0.0;
   std::array<PumpRegulator, kPumpCount> regulator;  ///< Of pumps that set their own swash.
+  /// Share of the travel behind its start after which a bypass is closed; 0: wherever it is open.
+  double bypass_closes_at = 0.0;
 };
 
 [[nodiscard]] MachineTruth truth_of(const plant::ExcavatorPlantProfile& plant);

@@ -19,8 +19,8 @@ using namespace graben::identify;
 
 constexpr const char* kFrom = "drive.log sha256 12ab34cd56ef, 2026-11-24";
 
-std::string shipped_text() {
-  std::ifstream stream(machines::find_profile("excavator_22t"));
+std::string shipped_text(const std::string& name = "excavator_22t") {
+  std::ifstream stream(machines::find_profile(name));
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
@@ -81,6 +81,39 @@ struct Found {
   std::string text = identified_text(old_text, old, fit, kFrom);
   machines::ExcavatorMachine read = load(text);
 };
+
+/// A profile that is like another: the text is of one that is like it, too.
+TEST(what_negative_flow_has_of_its_own_is_written) {
+  const std::string old_text = shipped_text("excavator_22t_nfc");
+  const machines::ExcavatorMachine old = load(old_text);
+  JudgedFit fit = fit_of(old.profile);
+  fit.machine.bypass_closes_at = {0.21, 0.01, true};
+  for (RegulatorEstimate& regulator : fit.machine.regulator) {
+    regulator.full_swash_pa = {0.9e6, 1e4, true};
+    regulator.least_swash_pa = {2.9e6, 1e4, true};
+  }
+  fit.profile = identified(old.profile, fit.machine);
+  const std::string text = identified_text(old_text, old, fit, kFrom);
+  assert_true(has(text, "like = \"excavator_22t\""));
+  assert_true(has(text, "closes_at = 0.21 "));
+  assert_int_equal(count(text, "pressure = [900000.0, 2.9e+06], least_swash = 0.15"), 2);
+  assert_reads_back(text, "/tmp/graben_like.toml", fit.profile);
+  assert_string_equal(first_difference(load(text).profile, fit.profile).c_str(), "");
+  fit.profile.valve.spool[kArm].bypass_closes_at = 0.3;
+  graben::test::expect_refusal(
+      [&] { assert_reads_back(text, "/tmp/graben_like.toml", fit.profile); },
+      "valve.bypass.closes_at");
+}
+
+/// Pumps that stand in another's file have no place in this one's.
+TEST(pumps_of_another_profile_are_not_written) {
+  const std::string old_text = "kind = \"excavator\"\nlike = \"excavator_22t\"\n";
+  const machines::ExcavatorMachine old = load(old_text);
+  const JudgedFit fit = fit_of(old.profile);
+  graben::test::expect_refusal(
+      [&] { return identified_text(old_text, old, fit, kFrom); },
+      "pump[1].displacement: has no place in this profile's text, which is like another");
+}
 
 TEST(what_is_written_reads_back) {
   const auto [old_text, old, fit, text, read] = Found();

@@ -92,6 +92,23 @@ TEST(a_machine_that_senses_its_load_is_found) {
   assert_true(commissioned.says("pump 2: its margin and its response keep their old values"));
 }
 
+/// Its arm has to be pushed to its end: the line's pressure grows with the opening. Where it begins
+/// to move, a small error of the edge is a large one of the speed: that is held where it is open.
+TEST(a_machine_under_negative_flow_is_found) {
+  const auto nominal =
+      machines::load_simulated_excavator(machines::find_profile("excavator_22t_nfc"));
+  const Commissioned commissioned(nominal, 3);
+  const MachineEstimate& found = commissioned.found;
+  const runs::IdentificationErrors errors =
+      runs::errors_of(commissioned.machine.profile, found, commissioned.truth);
+  assert_true(errors.edge_ratio < 0.05);
+  assert_true(errors.dead_time_s < 0.010);
+  assert_true(errors.stroke_zero_m < 0.001);
+  assert_true(errors.pump_flow < 0.02);
+  assert_near(found.closes_at_factor * 0.25, commissioned.truth.bypass_closes_at, 0.06);
+  assert_true(commissioned.says("the pumps' least swash and response"));
+}
+
 /// Its truth as an estimate has no error, and gives back what it is made of.
 TEST(what_is_known_is_without_error) {
   const machines::SimulatedExcavator machine = machines::hidden_machine(test::excavator(), 5);
