@@ -78,6 +78,9 @@ void run_task(const TaskCommand& options) {
   const machines::TaskFile task = runs::planned_task(options.scenario, machine.profile);
   runs::AutodigOptions run =
       runs::usual_run(options.scenario, machine.profile, task.result.program);
+  run.speed_override_ratio =
+      speed_with(machine, runs::needed_drives(machine.profile, task.result.program),
+                 options.unknown_drives, run.speed_override_ratio);
   run.faults = options.faults;
   run.most_s = options.most_s;
   const fs::path out(options.out);
@@ -135,6 +138,7 @@ void add_autodig(CLI::App& app, int& status) {
   add_summary_option(*command, options->summary);
   add_simulated_options(*command, options->simulated);
   add_task_options(*command, options->scenario);
+  add_unknown_drives_option(*command, options->unknown_drives);
   add_fault_option(*command, options->faults);
   add_seconds_option(*command, options->most_s,
                      "a minute and ten times what is planned, in layers what is planned for them");

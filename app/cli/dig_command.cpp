@@ -40,6 +40,7 @@ struct DigCommand {
   bool random_start = false;
   std::uint64_t seed = 1;
   double speed = 1.0;
+  std::string unknown_drives;  ///< See speed_with().
   std::optional<double> loops;
   std::vector<std::string> figures;
   std::vector<std::string> faults;
@@ -95,7 +96,8 @@ void dig(const DigCommand& options) {
   runs::DigOptions run_options = runs::usual_run(machine, scenario);
   run_options.start_strokes_m =
       start_strokes(options, machine.profile).value_or(run_options.start_strokes_m);
-  run_options.speed_override_ratio = options.speed;
+  run_options.speed_override_ratio =
+      speed_with(machine, runs::kCylinders, options.unknown_drives, options.speed);
   run_options.loops = options.loops.value_or(run_options.loops);
   run_options.faults = options.faults;
   const std::filesystem::path out(options.out);
@@ -172,6 +174,7 @@ TaskCommand task_command(const DigCommand& options) {
   run.out = options.out;
   run.name = "dig";
   run.summary = options.summary;
+  run.unknown_drives = options.unknown_drives;
   run.faults = options.faults;
   return run;
 }
@@ -218,6 +221,7 @@ void add_dig(CLI::App& app, int& status) {
                   "Any pose of the work space, drawn from the seed");
   start->require_option(0, 1);
   add_override_option(*command, options->speed);
+  add_unknown_drives_option(*command, options->unknown_drives);
   add_fault_option(*command, options->faults);
   command
       ->add_option("--loops", options->loops, "Times round the path, 0.1 .. 100; once unless told")

@@ -266,6 +266,33 @@ void add_override_option(CLI::App& command, double& speed_override_ratio) {
       ->capture_default_str();
 }
 
+void add_unknown_drives_option(CLI::App& command, std::string& how) {
+  command
+      .add_option(
+          "--unknown-drives", how,
+          fmt::format("slow: where the profile is from `graben identify` and the task needs "
+                      "drives that were not commissioned, at {:.0f} % of the speed; "
+                      "refused unless told",
+                      100.0 * kUnknownSpeed))
+      ->check(one_of({"slow"}));
+}
+
+double speed_with(const machines::ExcavatorMachine& machine, const runs::NeededDrives& needed,
+                  const std::string& how, double speed_override_ratio) {
+  const std::string unknown = runs::unknown_drives(machine, needed);
+  if (unknown.empty()) {
+    return speed_override_ratio;
+  }
+  if (how.empty()) {
+    throw std::runtime_error(fmt::format(
+        "{}: needs drives that were not commissioned: {}; commission and identify them, "
+        "or --unknown-drives slow tries it slowly",
+        machine.name, unknown));
+  }
+  fmt::print("not commissioned: {}: at {:.0f} % of the speed\n", unknown, 100.0 * kUnknownSpeed);
+  return kUnknownSpeed * speed_override_ratio;
+}
+
 void add_figure_option(CLI::App& command, std::vector<std::string>& figures,
                        const std::vector<std::string>& names) {
   command

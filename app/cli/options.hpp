@@ -11,6 +11,7 @@
 
 #include "app/design/design_source.hpp"
 #include "app/machines/simulated/simulation_file.hpp"
+#include "app/runs/needed_drives.hpp"
 #include "app/runs/scenarios.hpp"
 
 namespace graben::cli {
@@ -84,6 +85,18 @@ void add_fault_option(CLI::App& command, std::vector<std::string>& faults,
 void add_seconds_option(CLI::App& command, std::optional<double>& most_s, const std::string& usual);
 /// Adds --speed, the operator's override.
 void add_override_option(CLI::App& command, double& speed_override_ratio);
+
+/// Of the speed, with drives that were not commissioned.
+inline constexpr double kUnknownSpeed = 0.3;
+
+/// `how` stays empty unless told.
+void add_unknown_drives_option(CLI::App& command, std::string& how);
+
+/// The speed override for a task that needs these drives: as told, or slow and said where some of
+/// them were not commissioned. Throws std::runtime_error, which names them, unless `how` allows it.
+[[nodiscard]] double speed_with(const machines::ExcavatorMachine& machine,
+                                const runs::NeededDrives& needed, const std::string& how,
+                                double speed_override_ratio);
 /// Names of all errors that an excavator's controller can have.
 [[nodiscard]] CLI::Validator error_name();
 [[nodiscard]] CLI::Validator soil_name();

@@ -119,6 +119,29 @@ def bad_tasks(graben):
     refused(graben, "", "autodig", "--start", "5,0,1.5", status=2)
 
 
+def uncommissioned(graben):
+    """A task that needs drives which `identify` did not find is refused with that reason, or tried slowly."""
+    with tempfile.TemporaryDirectory() as name:
+        part, folder = pathlib.Path(name) / "part.toml", pathlib.Path(name) / "out"
+
+        def said(drives):
+            part.write_text('kind = "excavator"\nlike = "excavator_12t"\n' + "".join(
+                f"[valve.answer.{drive}.{side}]\ndriven = [0.3, 0.9]\n" for drive in drives
+                for side in ("extend", "retract")), encoding="ascii")
+
+        machine = ("--profile", part, "--simulated", "excavator_12t", "--out", folder)
+        said(("boom", "arm", "bucket"))
+        needle = "part: needs drives that were not commissioned: swing, left; swing, right; commission and identify"
+        refused(graben, needle, "autodig", "--task", "truck_loading", *machine)
+        refused(graben, needle, "dig", "--task", "truck_loading", *machine)
+        done = call(graben, "autodig", "--task", "truck_loading", *machine, "--unknown-drives", "slow", "--seconds", "1")
+        assert "not commissioned: swing, left; swing, right: at 30 % of the speed" in done.stdout, done
+        assert "was not finished in time" in done.stderr and "speed 30 %" in (folder / "autodig.html").read_text(), done
+        said(("arm", "bucket", "swing"))
+        refused(graben, "not commissioned: boom, extend; boom, retract;", "dig", *machine)
+        refused(graben, "is none of slow", "dig", *machine, "--unknown-drives", "fast", status=2)
+
+
 def bad_grades(graben):
     refused(graben, "bounded, constant", "grade", "--speed-mode", "fast", status=2)
     refused(graben, "nan is not a number", "grade", "--speed", "nan", status=2)
@@ -257,6 +280,7 @@ def main():
     pose_and_back(graben)
     bad_usage(graben)
     bad_tasks(graben)
+    uncommissioned(graben)
     bad_grades(graben)
     bad_finds(graben)
     bad_machines(graben)
