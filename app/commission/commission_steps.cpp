@@ -128,13 +128,15 @@ void CommissionSequence::run_touch() {
   if (stands && presses_ > 0) {
     return finish(StepEnd::kDone);
   }
-  // The guard may have held it just before; let go and asked again, it comes to the very end.
-  if (stands || let_go_s_ > 0.0) {
+  // The guard may have held it just before, or on its way; let go and asked again, it comes to the
+  // very end.
+  const bool held = sent_[k] == 0.0 && time_s_ - mark_s_ > kPress_s;
+  if (stands || held || let_go_s_ > 0.0) {
     let_go_s_ += kPeriod_s;
     mark_s_ = time_s_;
     if (let_go_s_ > kStops_s + kLetGo_s) {
       let_go_s_ = 0.0;
-      ++presses_;
+      presses_ += left_m < kEnd_m ? 1 : 0;
     }
     return;
   }
@@ -143,7 +145,7 @@ void CommissionSequence::run_touch() {
                            : presses || left_m > kLast_m + v_mps * kStops_s ? kNear_mps
                                                                             : kLast_mps;
   // A load that has become heavier stands where the line's pressure grows with the opening.
-  const bool waits = left_m >= kEnd_m && time_s_ - mark_s_ > kPresses_s;
+  const bool waits = left_m >= kEnd_m && sent_[k] != 0.0 && time_s_ - mark_s_ > kPresses_s;
   const bool creeps = left_m < kEnd_m && v_mps < kCreeps * speed_mps;
   const bool hurries = v_mps > kTooFast * speed_mps;
   const double more_ps = waits ? kPushes_ps : creeps ? kPushesLast_ps : hurries ? -kPushes_ps : 0.0;
