@@ -213,6 +213,45 @@ def tables(check, moves):
     check.refused("stands.csv", plain({axis: ([0.0] * 2000, [0.3] * 2000) for axis in AXES}), "no drive moves")
 
 
+def strange_tables(check, moves):
+    """As strangers' recorders write them: what was lost or taken otherwise is said, or nothing is."""
+    def with_angle(of):
+        """The boom's angle in row `n` as of(n, text)."""
+        head, *rows = plain(moves).rstrip().split("\n")
+        cells = [row.split(",") for row in rows]
+        return "\n".join([head, *(",".join([*row[:2], of(n, row[2]), *row[3:]]) for n, row in enumerate(cells))]) + "\n"
+
+    check.good("wraps.csv", plain(moves, angle=lambda a: f"{(360 * 3 + math.degrees(4 * a)) % 360:.3f}"), dead_s=0.02,
+               says=("at a full turn, 360: counted on",))
+    check.good("no_value.csv", with_angle(lambda n, text: "-999" if n % 100 < 3 else text), says=("are -999, far off",))
+    said = check.good("holes.csv", with_angle(lambda n, text: "" if n // 300 % 2 else text), says=("are no number",))
+    assert 0.3 < said["drives"]["boom"]["blind_share"] < 0.6, said["drives"]["boom"]
+    check.good("minutes.csv", plain(moves, clock="time_min", time=lambda row: f"{row * STEP_S / 60:.7f}"))
+    check.good("european.csv", plain(moves, clock="time", between=";", time=lambda row: (
+        "1.3.2026 10:%02d:%06.3f" % divmod(row * STEP_S, 60)).replace(".", ",").replace(",", ".", 2)))
+    check.good("asked_speed.csv", plain(moves, names=("{}_velocity_command", "angle_rad_{}"), command=lambda c: f"{c / 2:.4f}"))
+    said = check.good("input.csv", plain(moves, names=("{}_cmd_in_percent", "angle_rad_{}"), command=lambda c: f"{100 * c:.2f}"))
+    assert "turns against" not in str(said["draft"]), said["draft"]
+    check.good("two_columns.csv", "\n".join(f"{row},{row.split(',')[2] if n == 0 else 0.5}" for n, row in enumerate(
+        plain(moves).rstrip().split("\n"))), says=("one counts; not used: angle_rad_boom",))
+    check.good("half_german.csv", plain(moves).replace("angle_rad_arm", "Stiel_Winkel"), drives=("boom", "bucket"),
+               says=("not used: Stiel_Winkel",))
+    said = check.call("a_second.csv", plain(moves, every=50))[1]["drives"]["boom"]
+    assert not said["useful"] and "a value each 1000 ms: slower" in str(said["known"]), said
+    said = check.call("5_hz.csv", plain(motion(seconds=200), every=10))[1]["drives"]["boom"]
+    assert abs(said["dead_time_s"] - DEAD_S["boom"]) < 1.96 * said["dead_time_deviation_s"], said
+    swapped = plain(moves).replace("command_permille_boom", "x").replace("command_permille_arm", "command_permille_boom")
+    done, said = check.call("swapped.csv", swapped.replace(",x,", ",command_permille_arm,"))
+    assert done.returncode == 0 and "columns of two drives changed about?" in str(said["drives"]["boom"]["known"]), done.stdout
+    coarse = "have the time of the row before"
+    check.refused("whole_seconds.csv", plain(moves, time=lambda row: f"{int(row * STEP_S)}"), coarse)
+    twice = [[f"{n},{row}" for row in plain(motion(seed=n)).rstrip().split("\n")] for n in (1, 5)]
+    check.refused("machines.csv", "\n".join(row for both in [("machine" + twice[0][0][1:],), *list(zip(*twice))[1:]]
+                                            for row in both), coarse)
+    check.refused("commas.csv", plain(moves, angle=lambda a: f"{a:.5f}".replace(".", ",")), "decimal commas between")
+    check.refused("old_mac.csv", plain(moves).replace("\n", "\r"), "end in CR alone")
+
+
 def limits(check):
     full = motion(seed=2, commands=lambda dice: dice.choice((0, 1, -1)))
     said = check.good("saturated.csv", plain(full))
@@ -250,6 +289,14 @@ def buses(check, moves, can_dbc):
     check.refused("wrong_dbc.log", foreign, "another machine", "--dbc", can_dbc / "zx200.dbc")
     dbc.write_text(FOREIGN_DBC.replace("@0-", "@1+").replace("(0.01,0)", "(0.5,0)"))
     check.refused("wrong_layout.log", foreign, "read by the DBC of another", "--dbc", dbc)
+    check.good("own.csv", candump(own), says=says)
+    check.refused("no_source.log", candump(own), "allowed: 0x80, 0x82", "--source", "0x55")
+    broken = [(at, identity, bytes([data[0] ^ 255, *data[1:]])) for at, identity, data in own]
+    check.refused("broken.log", candump(broken), "every one of them a wrong checksum")
+    dbc.write_text(FOREIGN_DBC + 'SIG_VALTYPE_ 257 SlewAngle : 1;\n')
+    check.good("float.log", foreign, "--dbc", dbc, drives=AXES[:3], says=("can't be read: Angles.SlewAngle",))
+    dbc.write_text("hello\n")
+    check.refused("no_dbc.log", foreign, "is it a DBC?", "--dbc", dbc)
     check.refused("no_log.log", "hello\nworld\nthere\n", "is not a line of candump")
 
 
@@ -258,6 +305,7 @@ def main(graben, can_dbc):
     with tempfile.TemporaryDirectory() as name:
         check = Check(graben, pathlib.Path(name))
         tables(check, moves)
+        strange_tables(check, moves)
         limits(check)
         buses(check, moves, pathlib.Path(can_dbc))
         print(f"{check.count} logs: a right answer or a clear word each")

@@ -71,7 +71,11 @@ double physical(const machines::DbcSignal& signal, const dbc::Payload& data) {
 BusLayout dbc_layout(const std::string& file) {
   BusLayout layout;
   layout.name = file;
-  for (const machines::DbcMessage& message : machines::read_dbc(file)) {
+  const std::vector<machines::DbcMessage> messages = machines::read_dbc(file);
+  if (messages.empty()) {
+    throw std::runtime_error(fmt::format("{}: has no message (BO_): is it a DBC?", file));
+  }
+  for (const machines::DbcMessage& message : messages) {
     MessageLayout of;
     of.name = message.name;
     of.id = message.id;
@@ -93,6 +97,10 @@ BusLayout dbc_layout(const std::string& file) {
         of.signal.push_back(
             {fmt::format("{}.{}", message.name, signal.name), meaning, signal.least, signal.most});
         used->push_back(signal);
+      } else if (meaning_of(message.name + "." + signal.name, signal.unit).drive >= 0) {
+        layout.left_out.push_back(fmt::format(
+            "{}.{}{}", message.name, signal.name,
+            !signal.supported ? " (multiplexed, a float, or of more than 32 bits)" : ""));
       }
     }
     of.decode = [used](const dbc::Payload& data, std::vector<double>& values) {

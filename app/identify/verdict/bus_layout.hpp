@@ -35,6 +35,7 @@ struct MessageLayout {
 struct BusLayout {
   std::string name;  ///< In words: "our excavator bus", a file's name.
   std::vector<MessageLayout> message;
+  std::vector<std::string> left_out = {};  ///< Signals of drives that can't be read, each with why.
 };
 
 /// Our DBC of the excavator and of the dozer: what says something of a drive.

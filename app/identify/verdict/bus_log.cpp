@@ -138,6 +138,14 @@ std::size_t good_frames(Collector& collector) {
   return frames;
 }
 
+std::size_t refused_frames(Collector& collector) {
+  std::size_t frames = 0;
+  for (const Heard* heard : collector.heard()) {
+    frames += is_of_drive(*heard) ? heard->refused : 0;
+  }
+  return frames;
+}
+
 class BusReader {
  public:
   BusReader(const std::filesystem::path& file, const BusAsk& ask) : file_(file), ask_(ask) {
@@ -165,8 +173,13 @@ class BusReader {
       refuse("is empty: there is no frame in it");
     }
     Collector& of = chosen();
+    assert_source(of);
     assert_one_machine(of);
     take_signals(of);
+    if (!of.layout().left_out.empty()) {
+      log_.notes.push_back(fmt::format("{}: left out, as they can't be read: {}", of.layout().name,
+                                       fmt::join(of.layout().left_out, ", ")));
+    }
     log_.kind =
         fmt::format("{} of {}, {} frames of {} ids", format_, of.layout().name, frames_, of.ids());
     return std::move(log_);
@@ -195,6 +208,13 @@ class BusReader {
     const bool dozer = strokes(collectors_[1], "BladeStroke");
     if (excavator && dozer) {
       refuse("two machines in one log: frames of an excavator and of a dozer");
+    }
+    const std::size_t wrong = refused_frames(collectors_[0]) + refused_frames(collectors_[1]);
+    if (good_frames(collectors_[0]) + good_frames(collectors_[1]) == 0 && wrong > 0) {
+      refuse(
+          fmt::format("{} frames have ids of our bus, and every one of them a wrong checksum or "
+                      "length: another bus, which --dbc FILE says how to read, or damaged",
+                      wrong));
     }
     if (good_frames(collectors_[0]) + good_frames(collectors_[1]) == 0) {
       throw UnknownBus(
@@ -244,6 +264,21 @@ class BusReader {
           fmt::format("{} names no drive in the {} frames that it has: no command, angle or "
                       "stroke of boom, arm, bucket, swing, blade, tilt or track",
                       of.layout().name, known));
+    }
+  }
+
+  void assert_source(Collector& of) const {
+    std::set<int> sources;
+    for (const Heard* heard : of.heard()) {
+      if (is_of_drive(*heard) && heard->source >= 0) {
+        sources.insert(heard->source);
+      }
+    }
+    if (ask_.source >= 0 && sources.count(ask_.source) == 0) {
+      refuse(fmt::format("nothing of a drive comes from --source 0x{:02X}; allowed: {}",
+                         ask_.source,
+                         sources.empty() ? std::string("none, as its ids have no address")
+                                         : fmt::format("0x{:02X}", fmt::join(sources, ", 0x"))));
     }
   }
 
@@ -336,13 +371,11 @@ SignalLog read_bus_log(const std::filesystem::path& file, const BusAsk& ask) {
 
 bool is_bus_log(const std::filesystem::path& file) {
   const std::string end = file.extension().string();
-  if (end == ".csv" || file.stem().extension() == ".csv") {
-    return false;
-  }
+  const bool is_table = end == ".csv" || file.stem().extension() == ".csv";
   if (end == ".blf" || end == ".asc" || end == ".trc" || end == ".log" || end == ".candump") {
     return true;
   }
-  if (is_other_log(file)) {
+  if (!is_table && is_other_log(file)) {
     return true;
   }
   Lines lines(file.string(), "a recording, CSV, or a log of frames");

@@ -36,9 +36,11 @@ std::optional<double> number_of(std::string_view cell, bool decimal_comma) {
   return machines::number_in(cell);
 }
 
-/// "2026-03-01T07:30:00.250" or "07:30:00.25" as seconds.
+/// "2026-03-01T07:30:00.250", "1.3.2026 07:30:00,25", "3/1/2026 7:30:00" or "07:30:00.25" as
+/// seconds.
 std::optional<double> clock_of(std::string_view cell) {
-  const std::string text(cell);
+  std::string text(cell);
+  std::replace(text.begin(), text.end(), ',', '.');
   int year = 1970;
   int month = 1;
   int day = 1;
@@ -46,8 +48,14 @@ std::optional<double> clock_of(std::string_view cell) {
   int minute = 0;
   double second = 0.0;
   char between = ' ';
-  if (std::sscanf(text.c_str(), "%d-%d-%d%c%d:%d:%lf", &year, &month, &day, &between, &hour,
-                  &minute, &second) != 7 &&
+  constexpr int kAll = 7;
+  const auto reads = [&](const char* format, int& first, int& next, int& last) {
+    return std::sscanf(text.c_str(), format, &first, &next, &last, &between, &hour, &minute,
+                       &second) == kAll;
+  };
+  if (!reads("%d-%d-%d%c%d:%d:%lf", year, month, day) &&
+      !reads("%d.%d.%d%c%d:%d:%lf", day, month, year) &&
+      !reads("%d/%d/%d%c%d:%d:%lf", month, day, year) &&
       std::sscanf(text.c_str(), "%d:%d:%lf", &hour, &minute, &second) != 3) {
     return std::nullopt;
   }
@@ -90,6 +98,12 @@ class Reader {
       table_.notes.push_back("its last row is cut off and left out");
       drop_last();
     }
+    if (rows_ == 0 && broken_ > 0) {
+      refuse(path_,
+             fmt::format("its header has {} cells, and line {} has more, as have all others: "
+                         "decimal commas between cells that commas part?",
+                         table_.name.size(), first_broken_));
+    }
     if (rows_ == 0) {
       refuse(path_, "has a header and no rows: there is nothing in it");
     }
@@ -112,6 +126,9 @@ class Reader {
       const Cells cells = machines::cells_of(line);
       if (cells.empty() || cells[0].substr(0, 1) == "#") {
         continue;
+      }
+      if (line.find('\r') != std::string::npos) {
+        refuse(path_, "its lines end in CR alone; allowed: LF, or CR LF");
       }
       decimal_comma_ = line.find(';') != std::string::npos || line.find('\t') != std::string::npos;
       if (std::all_of(cells.begin(), cells.end(), [&](std::string_view cell) {
@@ -207,9 +224,10 @@ double time_scale(const std::string& path, const std::string& name, Unit said, d
     double scale;
     const char* text;
   };
-  constexpr std::array<Row, 4> kRows = {
+  constexpr std::array<Row, 5> kRows = {
       Row{Unit::kSecond, 1.0, "s"}, Row{Unit::kMillisecond, 1e-3, "ms"},
-      Row{Unit::kMicrosecond, 1e-6, "us"}, Row{Unit::kOther, 1e-9, "ns"}};
+      Row{Unit::kMicrosecond, 1e-6, "us"}, Row{Unit::kOther, 1e-9, "ns"},
+      Row{Unit::kMinute, 60.0, "min"}};
   const auto fits = [&](double scale) {
     return step * scale >= kFastest_s && step * scale <= kSlowest_s;
   };
@@ -219,7 +237,7 @@ double time_scale(const std::string& path, const std::string& name, Unit said, d
     }
   }
   for (const Row& row : kRows) {
-    if (fits(row.scale)) {
+    if (row.unit != Unit::kMinute && fits(row.scale)) {
       notes.push_back(said == Unit::kUnknown
                           ? fmt::format("time: column {}, taken for {}", name, row.text)
                           : fmt::format("time: column {} says {}, but its steps of {:g} are {}",
@@ -239,6 +257,62 @@ std::size_t time_column(const std::string& path, const Table& table,
     }
   }
   refuse(path, "has no column of time: one called time_s, or time with its unit, is needed");
+}
+
+/// Rows whose time is that of the row before, but whose values are others.
+void judge_doubles(const std::string& path, const Table& table, std::size_t clock,
+                   std::vector<std::string>& notes) {
+  constexpr double kFew = 0.02;
+  const std::vector<double>& time = table.column[clock];
+  std::size_t others = 0;
+  for (std::size_t row = 1; row < time.size(); ++row) {
+    others += time[row] == time[row - 1] && std::any_of(table.column.begin(), table.column.end(),
+                                                        [row](const std::vector<double>& column) {
+                                                          return std::isfinite(column[row]) &&
+                                                                 std::isfinite(column[row - 1]) &&
+                                                                 column[row] != column[row - 1];
+                                                        })
+                  ? 1
+                  : 0;
+  }
+  const std::string said = fmt::format(
+      "{} of {} rows have the time of the row before and other "
+      "values",
+      others, time.size());
+  if (static_cast<double>(others) > kFew * static_cast<double>(time.size())) {
+    refuse(path, fmt::format("{}: its clock, {}, is too coarse, or two machines are in it", said,
+                             table.name[clock]));
+  }
+  if (others > 0) {
+    notes.push_back(said + ": left out");
+  }
+}
+
+/// Columns of which nothing is taken, and drives' columns with holes.
+void say_columns(const Table& table, const std::vector<Meaning>& meaning, std::size_t clock,
+                 std::vector<std::string>& notes) {
+  constexpr std::size_t kNamed = 8;
+  constexpr double kSome = 0.01;
+  std::vector<std::string> unused;
+  for (std::size_t at = 0; at < table.name.size(); ++at) {
+    if (at != clock && (meaning[at].what == What::kOther || meaning[at].what == What::kTime)) {
+      unused.push_back(table.name[at]);
+    }
+    const std::size_t rows = table.column[at].size();
+    if (meaning[at].drive >= 0 && meaning[at].what != What::kOther &&
+        static_cast<double>(table.invalid[at]) > kSome * static_cast<double>(rows)) {
+      notes.push_back(fmt::format("{}: {} of its {} cells are no number", table.name[at],
+                                  table.invalid[at], rows));
+    }
+  }
+  if (!unused.empty()) {
+    const std::size_t more = unused.size() > kNamed ? unused.size() - kNamed : 0;
+    unused.resize(unused.size() - more);
+    notes.push_back(
+        fmt::format("columns whose names say nothing of a drive's command or motion, "
+                    "not used: {}{}",
+                    fmt::join(unused, ", "), more == 0 ? "" : fmt::format(", and {} more", more)));
+  }
 }
 
 /// Times in seconds that only go on: a new run, or a time that goes back, is a cut.
@@ -288,6 +362,8 @@ SignalLog read_csv_log(const std::string& path) {
   const std::size_t clock = time_column(path, table, meaning);
   const double scale = time_scale(path, table.name[clock], meaning[clock].unit,
                                   usual_step(table.column[clock]), log.notes);
+  judge_doubles(path, table, clock, log.notes);
+  say_columns(table, meaning, clock, log.notes);
   std::size_t back = 0;
   const std::vector<double> time_s = times_of(table.column[clock], scale, run, back);
   if (back > 0) {

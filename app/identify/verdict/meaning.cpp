@@ -88,6 +88,7 @@ Unit unit_of(const Words& words, std::string_view whole) {
   if (any_of(words, {"ms", "msec", "millis", "milliseconds"})) return Unit::kMillisecond;
   if (any_of(words, {"us", "usec", "micros", "microseconds"})) return Unit::kMicrosecond;
   if (any_of(words, {"m", "mps", "metre", "meter"})) return Unit::kMetre;
+  if (any_of(words, {"min", "mins", "minute", "minutes"})) return Unit::kMinute;
   if (any_of(words, {"s", "sec", "secs", "seconds"})) return Unit::kSecond;
   if (any_of(words, {"mpa", "bar", "kpa", "pa", "psi", "ma", "v", "volt", "kn", "l", "rpm"})) {
     return Unit::kOther;
@@ -131,12 +132,16 @@ Meaning meaning_of(std::string_view name, std::string_view unit_as_it_is) {
   const bool velocity = any_of(words, {"velocity", "vel", "speed", "rate", "omega", "dot", "gyro",
                                        "radps", "degps", "mps", "mmps", "dps", "dq", "qd"}) ||
                         whole.find("/s") != std::string::npos;
+  // A speed that is asked for is a command, whatever its unit.
+  const bool asked =
+      any_of(words, {"command", "cmd", "demand", "request", "lever", "joystick", "joy"});
   const bool length =
       any_of(words, {"stroke", "length", "len", "cylinder", "cyl", "extension", "displacement"});
   if (is_none(words)) {
     meaning.what = What::kOther;
-  } else if (command && !velocity) {
+  } else if (command && (asked || !velocity)) {
     meaning.what = What::kCommand;
+    meaning.unit = velocity ? Unit::kOther : meaning.unit;
     meaning.side = meaning.drive > 5 ? 0 : side_of(words);
   } else if (any_of(words, {"pilot", "spool"})) {
     meaning.what = What::kSpool;
@@ -206,6 +211,8 @@ const char* unit_text(Unit unit) {
       return "ms";
     case Unit::kMicrosecond:
       return "us";
+    case Unit::kMinute:
+      return "min";
     case Unit::kUnknown:
     case Unit::kOther:
       break;

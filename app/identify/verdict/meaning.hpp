@@ -34,6 +34,7 @@ enum class Unit {
   kSecond,
   kMillisecond,
   kMicrosecond,
+  kMinute,
   kOther,
 };
 

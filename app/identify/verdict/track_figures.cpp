@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kAgo_s = 1.0;
 constexpr double kNoCommand = 0.02;
+constexpr double kLongestStep_s = 5.0;
 constexpr double kStands_radps = 0.005;
 constexpr double kStands_mps = 0.002;
 
@@ -19,7 +20,7 @@ constexpr double kStands_mps = 0.002;
 double usual_step(const std::vector<double>& time_s) {
   std::vector<double> steps;
   for (std::size_t at = 1; at < time_s.size(); ++at) {
-    if (time_s[at] - time_s[at - 1] < kGap_s) {
+    if (time_s[at] - time_s[at - 1] < kLongestStep_s) {
       steps.push_back(time_s[at] - time_s[at - 1]);
     }
   }
@@ -45,9 +46,15 @@ TrackFigures figures_of(const Tracks& tracks, std::size_t at) {
   double least = INFINITY;
   double most = -INFINITY;
   double largest = 0.0;
+  double all = 0.0;
   std::vector<double> speeds;
   for (const Tracks::Piece& piece : tracks.pieces) {
     for (std::size_t row = 0; row < piece.time_s.size(); ++row) {
+      all += 1.0;
+      if (piece.blind[at][row] != 0) {
+        of.blind += 1.0;
+        continue;
+      }
       least = std::min(least, piece.position[at][row]);
       most = std::max(most, piece.position[at][row]);
       speeds.push_back(std::abs(piece.velocity[at][row]));
@@ -56,7 +63,8 @@ TrackFigures figures_of(const Tracks& tracks, std::size_t at) {
       largest = std::max(largest, std::abs(piece.command[at][row]));
     }
   }
-  of.travel = most - least;
+  of.travel = most > least ? most - least : 0.0;
+  of.blind = all > 0.0 ? of.blind / all : 0.0;
   if (!speeds.empty()) {
     const auto high =
         speeds.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(speeds.size() - 1));
@@ -69,6 +77,10 @@ TrackFigures figures_of(const Tracks& tracks, std::size_t at) {
   for (const Tracks::Piece& piece : tracks.pieces) {
     double asked_s = piece.time_s.front();
     for (std::size_t row = 0; row < piece.time_s.size(); ++row) {
+      if (piece.blind[at][row] != 0 || (row > 0 && piece.blind[at][row - 1] != 0)) {
+        asked_s = piece.time_s[row];
+        continue;
+      }
       const double command = piece.command[at][row];
       const double place = piece.position[at][row];
       const bool moves = std::abs(piece.velocity[at][row]) > stands;
@@ -128,11 +140,14 @@ std::vector<SimpleRun> simple_runs(const Tracks& tracks, std::size_t drive) {
         run.pose.push_back(std::move(other));
       }
     }
-    for (const double time_s : run.time_s) {
+    double seen_s = run.time_s.front();
+    for (std::size_t row = 0; row < run.time_s.size(); ++row) {
+      const double time_s = run.time_s[row];
+      seen_s = piece.blind[drive][row] != 0 ? time_s : seen_s;
       const double at_s = gone_s + time_s - run.time_s.front();
       const auto stretch = static_cast<std::size_t>(at_s / stretch_s);
-      // What was commanded before a piece began is not known.
-      const bool settled = time_s - run.time_s.front() > kAgo_s;
+      // What was commanded before a piece began is not known, nor what it did in a gap.
+      const bool settled = time_s - seen_s > kAgo_s;
       run.judged.push_back(!settled ? kNeither : (stretch % kFifth == kWhich ? 1 : 0));
     }
     gone_s += run.time_s.back() - run.time_s.front();

@@ -16,13 +16,11 @@
 namespace graben::identify {
 namespace {
 
-constexpr double kUsualGap = 8.0;   // Of the usual step, of slow recordings.
 constexpr double kFinest_s = 0.02;  // Rows of a grid; finer says nothing more of a valve.
 constexpr double kCoarsest_s = 0.1;
 constexpr double kMostRows = 60000.0;  // Of the grid: seconds of work.
 constexpr double kShortest_s = 5.0;    // A piece.
 constexpr double kPiece_s = 60.0;      // A longer one is several.
-constexpr double kWindow_s = 0.1;      // Over which a velocity is the mean.
 constexpr double kJumps = 0.02;        // Of all values, where two machines speak.
 
 [[noreturn]] void refuse(const SignalLog& log, const std::string& what) {
@@ -80,6 +78,7 @@ class Maker {
     for (std::size_t at = 0; at < parts_.size(); ++at) {
       describe(at);
     }
+    say_unused(log_, parts_, tracks_.notes);
     for (Tracks::Piece& piece : tracks_.pieces) {
       fill(piece);
     }
@@ -88,6 +87,7 @@ class Maker {
       const Signal* motion = parts.position != nullptr ? parts.position : parts.velocity;
       tracks_.drive[at].figures = figures_of(tracks_, at);
       if (motion != nullptr) {
+        tracks_.drive[at].figures.step_s = usual_step(motion->time_s);
         tracks_.drive[at].figures.rate_hz =
             new_rate_hz(*motion, 1e-3 * tracks_.drive[at].figures.travel /
                                      std::max(1e-12, units_[at].position.scale));
@@ -135,7 +135,7 @@ class Maker {
   void cut() {
     const std::vector<double>& time_s = clock_->time_s;
     tracks_.recorded_s = usual_step(time_s);
-    const double gap_s = std::max(kGap_s, kUsualGap * tracks_.recorded_s);
+    const double gap_s = longest_step(tracks_.recorded_s);
     std::vector<std::pair<double, double>> whole;
     double begin_s = time_s.front();
     for (std::size_t at = 1; at <= time_s.size(); ++at) {
@@ -309,6 +309,8 @@ class Maker {
       for (double& value : command) {
         value = std::clamp(value, -1.0, 1.0);
       }
+      piece.blind.push_back(
+          blind_rows(parts.position != nullptr ? parts.position : parts.velocity, piece.time_s));
       std::vector<double> position(rows, 0.0);
       std::vector<double> velocity(rows, 0.0);
       if (parts.position != nullptr) {

@@ -15,6 +15,8 @@ namespace graben::identify {
 /// Shares of the looked-at time, 0 .. 1, unless told otherwise.
 struct TrackFigures {
   double rate_hz = 0.0;    ///< Of the position, new values alone.
+  double step_s = 0.0;     ///< Usual time between its values.
+  double blind = 0.0;      ///< Nothing says where it is.
   double travel = 0.0;     ///< Between the ends that were seen, rad or m.
   double way = 0.0;        ///< Gone in all, rad or m.
   double fastest = 0.0;    ///< 99 % of the time it is slower, rad/s or m/s.
@@ -50,6 +52,7 @@ struct Tracks {
     std::vector<std::vector<double>> command;
     std::vector<std::vector<double>> position;
     std::vector<std::vector<double>> velocity;
+    std::vector<std::vector<char>> blind;  ///< Per drive: 1 where nothing says where it is.
     std::vector<std::size_t> since;
   };
   std::vector<Piece> pieces;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "app/identify/verdict/mended_signals.hpp"
+
 namespace graben::identify {
 namespace {
 
@@ -20,6 +22,8 @@ constexpr std::size_t kFewSteps = 10;
 constexpr double kGood = 0.8;
 constexpr double kArms = 1.35;  // By which the arms of an unknown machine are longer or shorter.
 constexpr double kSlow_hz = 15.0;
+constexpr double kSlowest_s = 0.25;  // Rows further apart say nothing of a drive's answer.
+constexpr double kUsual_s = 0.02;    // What a dead time's band allows for by itself.
 
 /// Tip's way for a drive's, at kUsualReach_m: per rad of its joint, and per m of its stroke.
 struct Lever {
@@ -109,6 +113,20 @@ void say_motion(const DriveTrack& track, DriveVerdict& of) {
   }
 }
 
+void say_holes(const Tracks& tracks, const DriveTrack& track, DriveVerdict& of) {
+  constexpr double kSome = 0.03;
+  if (track.has_motion && track.figures.blind > kSome) {
+    of.known.push_back(fmt::format("{}: {:.0f} % of the time nothing says where it is: left out",
+                                   track.name(), 100.0 * track.figures.blind));
+  }
+  if (of.slow && track.has_command && track.has_motion) {
+    of.known.push_back(fmt::format(
+        "{}: a value each {:.0f} ms: slower than a drive answers, so no dead time, lag or edge",
+        track.name(), 1e3 * std::max(tracks.recorded_s, track.figures.step_s)));
+    of.next.push_back(fmt::format("{}: record it 20 times a second or more", track.name()));
+  }
+}
+
 void say_limits(const DriveTrack& track, DriveVerdict& of) {
   const std::string name = track.name();
   const TrackFigures& figures = track.figures;
@@ -155,7 +173,13 @@ void say_answer(const DriveTrack& track, DriveVerdict& of) {
                     "and 100 %, make dead time and lag sure",
                     name, figures.steps));
   }
-  if (!of.useful) {
+  constexpr double kOthers = 0.7;
+  if (!of.useful && of.ridge.judged_r2 > kOthers) {
+    of.known.push_back(
+        fmt::format("{}: its command does not explain its motion (R2 {:.2f}), those of all drives "
+                    "do (R2 {:.2f}): columns of two drives changed about?",
+                    name, of.curve.judged_r2, of.ridge.judged_r2));
+  } else if (!of.useful) {
     of.known.push_back(
         fmt::format("{}: its command does not explain its motion (R2 {:.2f}): another "
                     "drive's command, or somebody else drives",
@@ -174,16 +198,24 @@ void say_answer(const DriveTrack& track, DriveVerdict& of) {
   }
 }
 
+bool too_slow(const Tracks& tracks, const DriveTrack& track) {
+  return std::max(tracks.recorded_s, track.figures.step_s) > kSlowest_s;
+}
+
 void take_fit(const Tracks& tracks, std::size_t at, DriveVerdict& of) {
   const DriveTrack& track = tracks.drive[at];
   const bool driven_at_all = track.figures.most_command - track.figures.least_command >= 0.02;
-  if (!track.has_command || !track.has_motion || !driven_at_all || track.figures.moves < 1e-3) {
+  if (!track.has_command || !track.has_motion || !driven_at_all || track.figures.moves < 1e-3 ||
+      too_slow(tracks, track)) {
     return;
   }
   const std::vector<SimpleRun> runs = simple_runs(tracks, at);
   of.curve = fit_curve(runs, at);
   of.ridge = fit_ridge(runs, at);
   of.fitted = of.curve.known && of.ridge.known;
+  // When a command changed between two rows nobody knows: a bias of half a step, and its spread.
+  const double apart_s = std::max(0.0, tracks.recorded_s - kUsual_s) / std::sqrt(3.0);
+  of.curve.dead_time_deviation_s = std::hypot(of.curve.dead_time_deviation_s, apart_s);
   if (!of.fitted) {
     return;
   }
@@ -206,6 +238,7 @@ void take_draft(const DriveTrack& track, const DriveVerdict& of, std::vector<Dra
                        !track.has_command  ? "no command is in the log"
                        : !track.has_motion ? "no position is in the log"
                        : of.fitted         ? "was not driven, or does not follow its command"
+                       : of.slow           ? "rows are too far apart"
                                            : "was not driven"});
       continue;
     }
@@ -274,6 +307,7 @@ void take_tip(Verdict& verdict, const std::vector<std::vector<std::vector<double
 
 Verdict judge_log(SignalLog log, const VerdictAsk& ask) {
   Verdict verdict;
+  mend_signals(log);
   verdict.tracks = tracks_of(log);
   verdict.reach_told = ask.reach_m > 0.0;
   verdict.reach_m = verdict.reach_told ? ask.reach_m : kUsualReach_m;
@@ -299,6 +333,8 @@ Verdict judge_log(SignalLog log, const VerdictAsk& ask) {
     DriveVerdict& of = verdict.drive.back();
     take_fit(tracks, at, of);
     say_motion(track, of);
+    of.slow = too_slow(tracks, track);
+    say_holes(tracks, track, of);
     if (of.fitted) {
       say_limits(track, of);
       say_answer(track, of);

@@ -23,6 +23,7 @@ struct DriveVerdict {
   CurveFit curve;
   RidgeFit ridge;
   bool fitted = false;             ///< Command and motion are there, and it moved.
+  bool slow = false;               ///< Its values are too far apart for a fit.
   bool useful = false;             ///< The curve explains more than kUseful.
   double r2 = 0.0;                 ///< Of the better one, of motion that was left out.
   const char* model = "";          ///< Which that is.

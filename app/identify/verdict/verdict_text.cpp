@@ -119,9 +119,11 @@ std::string verdict_text(const Verdict& verdict) {
   std::vector<std::string> next;
   std::vector<std::string> columns;
   bool fitted = false;
+  bool slow = false;
   for (std::size_t at = 0; at < verdict.drive.size(); ++at) {
     const DriveVerdict& of = verdict.drive[at];
     fitted = fitted || of.fitted;
+    slow = slow || of.slow;
     known.insert(known.end(), of.known.begin(), of.known.end());
     next.insert(next.end(), of.next.begin(), of.next.end());
     const std::vector<std::string>& sources = verdict.tracks.drive[at].sources;
@@ -129,7 +131,8 @@ std::string verdict_text(const Verdict& verdict) {
   }
   text += listed("columns", columns);
   text += fitted ? table(verdict)
-                 : std::string("no fit: no drive has a command and a speed that changes\n");
+                 : std::string(slow ? "no fit: rows are too far apart\n"
+                                    : "no fit: no drive has a command and a speed that changes\n");
   text += listed("known", known);
   text += listed("next", next);
   std::vector<std::string> missing;
@@ -152,6 +155,9 @@ std::string verdict_json(const Verdict& verdict) {
   json["row_s"] = verdict.tracks.recorded_s;
   json["gaps"] = verdict.tracks.gaps;
   json["notes"] = verdict.log.notes;
+  for (const std::string& note : verdict.tracks.notes) {
+    json["notes"].push_back(note);
+  }
   for (std::size_t at = 0; at < verdict.drive.size(); ++at) {
     const DriveTrack& track = verdict.tracks.drive[at];
     const DriveVerdict& of = verdict.drive[at];
@@ -162,6 +168,7 @@ std::string verdict_json(const Verdict& verdict) {
     drive["has_command"] = track.has_command;
     drive["has_motion"] = track.has_motion;
     drive["rate_hz"] = figures.rate_hz;
+    drive["blind_share"] = figures.blind;
     drive["travel"] = figures.travel;
     drive["fastest"] = figures.fastest;
     drive["moves_share"] = figures.moves;
