@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -103,6 +104,33 @@ void check_row(const RawRun& raw, std::size_t row, const std::string& path) {
     check("command_permille_" + name, run.command[joint][row], 1000.0);
     check("angle_rad_" + name, run.angle_rad[joint][row], kLargestAngle_rad);
     check("velocity_radps_" + name, run.velocity_radps[joint][row], kLargestVelocity_radps);
+  }
+}
+
+/// An angle that wraps at a full turn goes on; no joint jumps otherwise within a row.
+void unwind(RawRun& raw, std::size_t joint, const std::string& path, std::size_t& wraps) {
+  constexpr double kTurn_rad = 6.283185307179586;
+  constexpr double kNearly = 0.8;
+  std::vector<double>& angle = raw.run.angle_rad[joint];
+  double added = 0.0;
+  for (std::size_t row = 1; row < angle.size(); ++row) {
+    angle[row] += added;
+    const double step = angle[row] - angle[row - 1];
+    const double step_s = raw.run.time_s[row] - raw.run.time_s[row - 1];
+    const double most = kLargestVelocity_radps * step_s;
+    if (std::abs(step) <= most) {
+      continue;
+    }
+    const double wrapped = step - std::copysign(kTurn_rad, step);
+    if (std::abs(step) < kNearly * kTurn_rad || std::abs(wrapped) > most) {
+      refuse(fmt::format("{}:{}", path, raw.line[row]),
+             fmt::format("angle_rad_{} jumps by {:.3g} rad within {:.3f} s: a number that stands "
+                         "for no value?",
+                         kJointNames[joint], step, step_s));
+    }
+    added += wrapped - step;
+    angle[row] += wrapped - step;
+    ++wraps;
   }
 }
 
@@ -209,9 +237,13 @@ std::vector<MotionRun> read_motion_csv(const std::string& path, std::vector<std:
   std::vector<std::string> said;
   take_units(raw, has_velocity, path, said);
   std::vector<MotionRun> runs;
+  std::array<std::size_t, kJoints> wraps{};
   for (RawRun& each : raw) {
     for (std::size_t row = 0; row < each.run.size(); ++row) {
       check_row(each, row, path);
+    }
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      unwind(each, joint, path, wraps[joint]);
     }
     MotionRun& run = each.run;
     const double lasts_s = run.time_s.back() - run.time_s.front();
@@ -225,6 +257,12 @@ std::vector<MotionRun> read_motion_csv(const std::string& path, std::vector<std:
       }
     }
     runs.push_back(std::move(run));
+  }
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    if (wraps[joint] > 0) {
+      said.push_back(fmt::format("{}: angle_rad_{} wraps {} times at a full turn: counted on", path,
+                                 kJointNames[joint], wraps[joint]));
+    }
   }
   check_agreement(runs, has_velocity, path);
   take_velocities(runs, has_velocity, path, said);

@@ -158,14 +158,32 @@ nlohmann::ordered_json delay_json(const MotionResult& result, std::size_t joint,
   return {{"to_50_s", number_or_null(delay.half_s)}, {"to_90_s", number_or_null(delay.most_s)}};
 }
 
+/// A joint that no command drove has a start's values, which are not its own.
+bool was_driven(const MotionResult& result, std::size_t joint) {
+  return std::max(driven(result, joint, true), driven(result, joint, false)) >= kDrivenAtAll;
+}
+
 /// "95 +- 4 ms", or why it has no band.
 std::string dead_time_text(const MotionResult& result, std::size_t joint) {
+  if (!was_driven(result, joint)) {
+    return "-";
+  }
   const JointModel& model = result.model[joint];
+  if (!std::isfinite(model.deviation[kDeadTime])) {
+    return "not known";
+  }
   const double value_ms = 1e3 * model.value[kDeadTime];
   return at_bound(model, kDeadTime, result.usual_radps[joint])
              ? fmt::format("{:.0f} ms, at bound", value_ms)
              : fmt::format("{:.0f} +- {:.0f} ms", value_ms,
                            kBand * 1e3 * model.deviation[kDeadTime]);
+}
+
+std::string lags_text(const MotionResult& result, std::size_t joint) {
+  const JointModel& model = result.model[joint];
+  return was_driven(result, joint) ? fmt::format("{:>6.0f}, {:<3.0f} ms", 1e3 * mean_lag(model, 0),
+                                                 1e3 * mean_lag(model, 1))
+                                   : std::string("     -");
 }
 
 std::string edge_text(const MotionResult& result, std::size_t joint, bool forward) {
@@ -200,6 +218,10 @@ std::string unsupported(const MotionResult& result, std::size_t joint) {
       said += fmt::format("{}, {} commands: nothing beyond {:.0f} % was driven\n",
                           kJointNames[joint], direction, 100.0 * most);
     }
+  }
+  if (result.trained[joint].moved && was_driven(result, joint) &&
+      !std::isfinite(result.model[joint].deviation[kDeadTime])) {
+    said += fmt::format("{}: its motion says nothing of its dead time\n", kJointNames[joint]);
   }
   constexpr double kMuch = 0.1;
   if (result.unasked[joint] > kMuch) {
@@ -320,6 +342,10 @@ std::string motion_json(const MotionResult& result) {
       continue;  // Nothing is known of it.
     }
     axis["positive_command_turns"] = model.sign;
+    if (!was_driven(result, joint)) {
+      axis["driven"] = false;
+      continue;
+    }
     axis["dead_time_s"] = model.value[kDeadTime];
     axis["dead_time_deviation_s"] = at_bound(model, kDeadTime, result.usual_radps[joint])
                                         ? nlohmann::json(nullptr)
@@ -348,19 +374,17 @@ std::string motion_text(const MotionResult& result) {
       result.trained_runs, result.judged_runs);
   std::string missing;
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
-    const JointModel& model = result.model[joint];
     const Score& score = result.judged[joint];
     const Rivals& rivals = result.rivals[joint];
     if (result.trained[joint].moved) {
-      text += fmt::format(
-          "{:<7} {:>9}  {:>5}  {:>5}  {:>5.2f} deg  {:<15} {:<13} {:>6.0f}, {:<3.0f} ms      {}, "
-          "{}\n",
-          kJointNames[joint], score.moved ? fmt::format("{:.3f}", score.velocity_r2) : "stood",
-          r2_text(rivals.curve.known && score.moved, rivals.curve.judged_r2),
-          r2_text(rivals.ridge.known && score.moved, rivals.ridge.judged_r2),
-          kDegrees * score.angle_1s_rms_rad, dead_time_text(result, joint),
-          delay_text(result, joint), 1e3 * mean_lag(model, 0), 1e3 * mean_lag(model, 1),
-          edge_text(result, joint, true), edge_text(result, joint, false));
+      text += fmt::format("{:<7} {:>9}  {:>5}  {:>5}  {:>5.2f} deg  {:<15} {:<13} {:<15} {}, {}\n",
+                          kJointNames[joint],
+                          score.moved ? fmt::format("{:.3f}", score.velocity_r2) : "stood",
+                          r2_text(rivals.curve.known && score.moved, rivals.curve.judged_r2),
+                          r2_text(rivals.ridge.known && score.moved, rivals.ridge.judged_r2),
+                          kDegrees * score.angle_1s_rms_rad, dead_time_text(result, joint),
+                          delay_text(result, joint), lags_text(result, joint),
+                          edge_text(result, joint, true), edge_text(result, joint, false));
       missing += unsupported(result, joint);
     } else {
       missing += fmt::format("{}: stood throughout, nothing is known of it\n", kJointNames[joint]);

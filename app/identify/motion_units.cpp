@@ -117,6 +117,47 @@ void take_angles(std::vector<RawRun>& runs, const HasVelocity& has_velocity,
   }
 }
 
+bool has_fractions(const std::vector<RawRun>& runs, std::size_t joint) {
+  return std::any_of(runs.begin(), runs.end(), [joint](const RawRun& raw) {
+    const std::vector<double>& of = raw.run.command[joint];
+    return std::any_of(of.begin(), of.end(), [](double each) { return each != std::floor(each); });
+  });
+}
+
+/// Ratios and per cent as per mille. No valve opens within a tenth of its command, and what is up
+/// to 1 is noise only where it is in whole per mille.
+void take_commands(std::vector<RawRun>& runs, const std::string& path,
+                   std::vector<std::string>& notes) {
+  std::array<double, kJoints> most{};
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    most[joint] = largest(
+        runs, [joint](const MotionRun& run) -> const auto& { return run.command[joint]; });
+  }
+  const double all = *std::max_element(most.begin(), most.end());
+  const auto say = [&](const std::string& whose, double of, const char* unit) {
+    notes.push_back(
+        fmt::format("{}: no {} is beyond {:g}: {}, not per mille", path, whose, of, unit));
+  };
+  double factor = 1.0;
+  if (all > 0.0 && all <= 1.0) {
+    say("command", all, "they are ratios");
+    factor = 1e3;
+  } else if (all > 1.0 && all <= 100.0) {
+    say("command", all, "they are per cent");
+    factor = 10.0;
+  }
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    const bool alone =
+        factor == 1.0 && most[joint] > 0.0 && most[joint] <= 1.0 && has_fractions(runs, joint);
+    if (alone) {
+      say(fmt::format("command_permille_{}", kJointNames[joint]), most[joint], "it is a ratio");
+    }
+    times(
+        runs,
+        alone ? 1e3 : factor, [joint](MotionRun & run) -> auto& { return run.command[joint]; });
+  }
+}
+
 }  // namespace
 
 void take_units(std::vector<RawRun>& runs, const HasVelocity& has_velocity, const std::string& path,
@@ -128,22 +169,7 @@ void take_units(std::vector<RawRun>& runs, const HasVelocity& has_velocity, cons
         runs, 1e-3, [](MotionRun & run) -> auto& { return run.time_s; });
     notes.push_back(fmt::format("{}: time_s goes on by {:g}: it is in ms", path, step));
   }
-  double most = 0.0;
-  for (std::size_t joint = 0; joint < kJoints; ++joint) {
-    most = std::max(most, largest(
-                              runs, [joint](const MotionRun& run) -> const auto& {
-                                return run.command[joint];
-                              }));
-  }
-  const bool ratios = most > 0.0 && most <= 1.0;
-  if (ratios) {
-    notes.push_back(
-        fmt::format("{}: no command is beyond {:g}: they are ratios, not per mille", path, most));
-  }
-  for (std::size_t joint = 0; joint < kJoints && ratios; ++joint) {
-    times(
-        runs, 1e3, [joint](MotionRun & run) -> auto& { return run.command[joint]; });
-  }
+  take_commands(runs, path, notes);
   take_angles(runs, has_velocity, path, notes);
 }
 

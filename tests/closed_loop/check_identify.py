@@ -177,6 +177,27 @@ def by_angles(graben, folder):
         assert len(found["fitted"]["load_positive_by_pose"]["value"]) == 7
 
 
+def other_numbers(graben, folder):
+    """Per cent, one ratio among per mille, a swing that wraps, and an arm that moves uncommanded: said, and right."""
+    rows = recording(6, 4, seconds=15)
+    for row in rows:
+        row[COLUMNS.index("angle_rad_swing")] = f"{(float(row[COLUMNS.index('angle_rad_swing')]) + 3 + math.pi) % (2 * math.pi) - math.pi:.6f}"
+        row[COLUMNS.index("command_permille_boom")] = f"{float(row[COLUMNS.index('command_permille_boom')]) / 1000:.3f}"
+        row[COLUMNS.index("command_permille_arm")] = "0"
+    summary = folder / "other.json"
+    done = call(graben, "--csv", write(folder / "other.csv", rows), "--summary", summary)
+    assert done.returncode == 0, done.stderr
+    assert ": it is a ratio, not per mille" in done.stdout, done.stdout
+    assert "angle_rad_swing wraps" in done.stdout and "inf" not in done.stdout, done.stdout
+    said = json.loads(summary.read_text())["axes"]
+    assert said["arm"]["driven"] is False and "dead_time_s" not in said["arm"], said["arm"]
+    assert said["boom"]["velocity_r2"] > 0.9 and said["swing"]["velocity_r2"] > 0.9, said
+    short = [[*row[:2], *(f"{float(cell) / 10:.1f}" if COLUMNS[at].startswith("command") else cell for at, cell in enumerate(row) if at > 1)]
+             for row in recording(6, 4, seconds=4, standing=AXES[1:])]
+    done = call(graben, "--csv", write(folder / "percent.csv", short), "--summary", summary)
+    assert "they are per cent, not per mille" in done.stdout and "beyond 9 %" not in done.stdout, done.stdout + done.stderr
+
+
 def useless(graben, folder):
     """Commands of another day."""
     rows, other = recording(8, 3), recording(9, 3)
@@ -213,6 +234,7 @@ def bad_files(graben, folder, train, judge):
     bad("velocity_radps_swing is 50", changed(rows, 7, "velocity_radps_swing", "50"))
     bad("time_s goes on by 100", changed(rows, 7, "time_s", "100.3"))
     bad("time_s goes on by -", changed(rows, 7, "time_s", "0.1"))
+    bad("bad.csv:9: angle_rad_boom jumps by -", changed(rows, 7, "angle_rad_boom", "-99"))
     bad("has no column command_permille_swing", [[*row[:11], *row[12:]] for row in rows], [*COLUMNS[:11], *COLUMNS[12:]])
     bad("has the column run twice", rows, ["run", "run", *COLUMNS[2:]])
     bad("is the file cut off", [*rows, rows[-1][:5]])
@@ -241,6 +263,7 @@ def main(graben):
         train, judge = finds(graben, folder)
         says_what_is_not_known(graben, folder)
         by_angles(graben, folder)
+        other_numbers(graben, folder)
         useless(graben, folder)
         bad_files(graben, folder, train, judge)
 
