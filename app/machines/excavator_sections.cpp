@@ -150,6 +150,11 @@ AssistProfile read_assist(TomlReader& reader) {
                                      "task Assist holds the edge from this near to the design on");
   assist.offset_m = reader.number_or(0.0, "assist.offset", {0.0, 0.5, "m"},
                                      "so high over the design task Assist holds the edge");
+  if (assist.offset_m >= assist.window_m) {
+    reader.fail("assist.offset", fmt::format("{} m; allowed: less than assist.window, {} m, or an "
+                                             "edge on the design would be away from it",
+                                             assist.offset_m, assist.window_m));
+  }
   return assist;
 }
 

@@ -209,7 +209,9 @@ class AssistRun {
     const plant::ExcavatorPlant& plant = rig_.plant.plant();
     const ExcavatorStatus& status = rig_.ecu->outputs().status;
     const double at_m = out_m();
-    const double off_m = FenceTruth(plant).left_m(way_.fence);
+    // Off the line that is held; a cut is one of the design itself.
+    const double over_design_m = FenceTruth(plant).left_m(way_.fence);
+    const double off_m = over_design_m - rig_.setup.profile.assist.offset_m;
     const Eigen::Vector3d teeth_m = plant.teeth().position_m;
     const double speed_mps = (teeth_m - last_teeth_m_).norm() / kPeriod_s;
     last_teeth_m_ = teeth_m;
@@ -219,7 +221,7 @@ class AssistRun {
     if (way_m_ > kOnto_m && phase_ != Phase::kDone) {
       off_.add(off_m);
       most_off_m_ = std::max(most_off_m_, std::abs(off_m));
-      over_cut_m_ = std::max(over_cut_m_, -off_m);
+      over_cut_m_ = std::max(over_cut_m_, -over_design_m);
       wave_.add(high_pass_.step(off_m));
     }
     if (works && lever_now != 0.0 && std::abs(at_m - from_m_) > kOnto_m) {

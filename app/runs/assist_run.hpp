@@ -35,12 +35,12 @@ struct AssistOptions {
   std::uint64_t seed = 1;
 };
 
-/// True edge against the design, from the first 0.3 m of way on. Not a number: nothing of it was
-/// seen.
+/// True edge against the line that is held, assist.offset over the design, from the first 0.3 m of
+/// way on. Not a number: nothing of it was seen.
 struct AssistSummary {
   double rmse_m = kAbsent;
   double most_off_m = kAbsent;
-  double over_cut_m = kAbsent;  ///< 0: none.
+  double over_cut_m = kAbsent;  ///< Under the design; 0: none.
   double wave_rms_m = kAbsent;  ///< Of what changes faster than 0.5 Hz.
   /// Over the fastest that the arm's lever, the drives' and the pumps' flow allow, on the way in
   /// and out; of records in which the lever stands still.

@@ -36,6 +36,8 @@ CASES = [
     ("unit mix-up", {"relief = 35.0e6": "relief = 350.0"}, ["pump[0].relief", "350", "1000000 .. 100000000 Pa"]),
     ("not a number", {"density = 870.0": "density = nan"}, ["valve.density", "not finite", "kg/m3"]),
     ("infinite", {"density = 870.0": "density = inf"}, ["valve.density", "not finite"]),
+    ("an edge that would be held farther from the design than it is looked for",
+     {"[safety]": "[assist]\noffset = 0.3\n\n[safety]"}, ["1 error", "assist.offset", "0.3 m", "less than assist.window"]),
     ("levers that would change more often than they are sent", {"[safety]": "[safety]\nlevers_alive = 0.05"},
      ["1 error", "safety.levers_alive", "0.05 s", "0.1 s, and more"]),
     ("text", {"discharge = 0.62": 'discharge = "0.62"'}, ["valve.discharge", "is not a number"]),
