@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "app/identify/motion_runs.hpp"
@@ -26,7 +27,7 @@ std::string motion(const std::string& between, const std::string& end) {
   for (int row = 0; row <= 80; ++row) {
     text += fmt::format("0{}+{:.3f}", between, 0.05 * row);
     for (int joint = 0; joint < 4; ++joint) {
-      text += fmt::format("{0}100{0}{1:.6f}{0}+0.1", between, 0.005 * row);
+      text += fmt::format("{0}200{0}{1:.6f}{0}+0.1", between, 0.005 * row);
     }
     text += end;
   }
@@ -46,7 +47,7 @@ TEST(marks_pluses_ends_and_blank_rows_are_no_motion) {
     assert_int_equal(runs.size(), 1);
     assert_int_equal(runs[0].size(), 81);
     assert_near(runs[0].angle_rad[3].back(), 0.4, 1e-9);
-    assert_near(runs[0].command[0].front(), 0.1, 1e-9);
+    assert_near(runs[0].command[0].front(), 0.2, 1e-9);
   }
 }
 
@@ -105,11 +106,44 @@ TEST(other_units_are_taken_for_what_they_are_and_said) {
               has(said, "angle_rad_swing is in degrees"));
 }
 
+TEST(per_cent_and_one_ratio_among_per_mille_are_said) {
+  for (const auto& [first, others, words] :
+       {std::tuple{80.0, 80.0, "they are per cent, not per mille"},
+        std::tuple{0.8, 800.0, "command_permille_boom is beyond 0.8: it is a ratio"}}) {
+    std::vector<std::string> notes;
+    int cell = 0;
+    const double one = first;
+    const double rest = others;
+    const auto runs = read(swaying(",command_permille_{0},angle_rad_{0}", 5.0, 1.0,
+                                   [&](double time_s, int row) {
+                                     const double full = cell++ % 4 == 0 ? one : rest;
+                                     return fmt::format(",{:.3f},{:.6f}", row % 2 == 0 ? full : 0.0,
+                                                        sway(time_s));
+                                   }),
+                           notes);
+    assert_near(runs[0].command[0][100], 0.8, 1e-3);
+    assert_near(runs[0].command[3][100], 0.8, 1e-3);
+    assert_true(notes.size() == 1 && has(notes[0], words));
+  }
+}
+
+TEST(an_angle_that_wraps_goes_on) {
+  std::vector<std::string> notes;
+  const auto runs =
+      read(swaying(",command_permille_{0},angle_rad_{0}", 9.0, 1.0,
+                   [](double time_s, int) {
+                     return fmt::format(",200,{:.6f}", std::remainder(time_s, 6.283185307179586));
+                   }),
+           notes);
+  assert_near(runs[0].angle_rad[0].back(), 8.99, 1e-5);
+  assert_true(has(notes.at(0), "angle_rad_boom wraps 1 times"));
+}
+
 TEST(a_velocity_that_is_missing_or_a_difference_is_the_angles) {
   std::vector<std::string> notes;
   auto runs =
       read(swaying(",command_permille_{0},angle_rad_{0}", 5.0, 1.0,
-                   [](double time_s, int) { return fmt::format(",100,{:.6f}", sway(time_s)); }),
+                   [](double time_s, int) { return fmt::format(",200,{:.6f}", sway(time_s)); }),
            notes);
   assert_true(runs[0].by_angle[2] && notes.empty());
   assert_int_equal(runs[0].since[50], 40);
@@ -121,7 +155,7 @@ TEST(a_velocity_that_is_missing_or_a_difference_is_the_angles) {
                         [&](double time_s, int row) {
                           const double angle = sway(time_s) + noise(row);
                           const double before = sway(time_s - 0.02) + noise(row - 2);
-                          return fmt::format(",100,{:.8f},{:.8f}", angle,
+                          return fmt::format(",200,{:.8f},{:.8f}", angle,
                                              own ? 0.6 * std::cos(2.0 * time_s) +
                                                        0.01 * std::sin(7e3 * row * row + 1.0)
                                                  : (row < 2 ? 0.0 : (angle - before) / 0.02));
