@@ -30,10 +30,10 @@ struct MotionRun {
 /// Reads a CSV file, plain or gzip: columns `run`, `time_s` and, for every joint,
 /// `command_permille_JOINT` and `angle_rad_JOINT`, and maybe `velocity_radps_JOINT`; others are not
 /// looked at. A velocity that is missing, or only a filtered difference of the angles, is made of
-/// the angles. Ratios and per cent for per mille, degrees for radians and ms for s are taken for what they are;
-/// `notes`, unless null, gets a sentence for each. Throws std::runtime_error with file, line and
-/// column where a value is no number or out of its range, time does not increase or jumps, a run is
-/// too short, or an angle is not where its velocity leads.
+/// the angles. Ratios and per cent for per mille, degrees for radians and ms for s are taken for
+/// what they are; `notes`, unless null, gets a sentence for each. Throws std::runtime_error with
+/// file, line and column where a value is no number or out of its range, time does not increase or
+/// jumps, a run is too short, or an angle is not where its velocity leads.
 [[nodiscard]] std::vector<MotionRun> read_motion_csv(const std::string& path,
                                                      std::vector<std::string>* notes = nullptr);
 
