@@ -58,6 +58,10 @@ inline constexpr CommandRow kCommands[] = {
      "how well that is known, what a profile of the machine still lacks, what to drive next, and "
      "the tip error to be expected. Columns and units are guessed and said. A log with nothing in "
      "it ends with status 1"},
+    {"drift", "identify",
+     "What wears: dead bands, leakage, friction, pumps' flow and zeros of the sensors, from logs "
+     "of "
+     "many days; a work order in plain words where one has changed beyond its noise"},
     {"measure-up", "identify",
      "How the IMUs sit on their links, from a log in which the bucket's edge stood on one fixed "
      "point in several postures, each for 10 s; into the profile's [imu]. --record makes such a "

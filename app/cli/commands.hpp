@@ -34,6 +34,7 @@ void add_commission(CLI::App& app, int& status);
 void add_identify(CLI::App& app, int& status);
 void add_measure_up(CLI::App& app, int& status);
 void add_verdict(CLI::App& app, int& status);
+void add_drift(CLI::App& app, int& status);
 void add_as_built(CLI::App& app, int& status);
 void add_scope(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);

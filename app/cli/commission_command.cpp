@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,6 +26,8 @@ namespace {
 
 struct CommissionCommand : BusCommission {
   machines::SimulatedChoice simulated;
+  machines::Found found;
+  std::optional<std::uint64_t> seed;
   bool force = false;
 };
 
@@ -62,14 +66,32 @@ std::string stop_text(const runs::CommissionResult& result) {
   return "";
 }
 
+/// Its pressures' noise, without biases of a day, which would be no machine's.
+void take_noise(std::uint64_t seed, plant::ExcavatorPlantProfile& plant) {
+  plant.seed = seed;
+  plant.sensor_errors = true;
+  plant.sensors.stroke_bias_m = plant.sensors.swing_bias_rad = 0.0;
+  plant.sensors.pressure_bias_ratio = 0.0;
+}
+
 void commission_in_memory(const CommissionCommand& options) {
-  const machines::SimulatedExcavator machine = machines::load_simulated_excavator(
+  machines::SimulatedExcavator machine = machines::load_simulated_excavator(
       machines::find_profile(options.profile), options.simulated);
+  machines::make_as_found(machine.plant, {}, false, options.found);
+  if (options.seed) {
+    take_noise(*options.seed, machine.plant);
+  }
   runs::CommissionOptions run = runs::usual_commission(machine);
   choose(options.choice, run.sequence);
   if (!options.windows.empty()) {
     commission::read_windows(options.windows, run.sequence);
     leave_touches(options.choice, run.sequence);
+  }
+  const auto steps = planned_steps(run.sequence);
+  if (steps.empty()) {
+    std::string why = left_out_text(options.choice, run.sequence);
+    why.erase(why.find_last_not_of('\n') + 1);
+    throw std::runtime_error("nothing is left to be tried: " + why);
   }
   assert_apart({machines::find_profile(options.profile).string(), options.windows,
                 options.simulated.name.value_or("")},
@@ -85,7 +107,6 @@ void commission_in_memory(const CommissionCommand& options) {
     ProgressBar bar("commission");
     result = runs::run_commission(machine, run, nullptr, bar.progress_until_stopped());
   }
-  const auto steps = planned_steps(run.sequence);
   fmt::print("{:<49} {:<11} {:>6} {:>6} {:>9}\n", "tried", "ended as", "took", "duty", "speed");
   for (std::size_t at = 0; at < result.steps.size(); ++at) {
     const commission::StepResult& step = result.steps[at];
@@ -161,7 +182,12 @@ void add_commission(CLI::App& app, int& status) {
       command->add_option("--can", options->interface, "CAN interface, such as can0");
   add_profile_option(*command, options->profile);
   add_simulated_options(*command, options->simulated);
-  for (const char* const simulated : {"--simulated", "--hidden"}) {
+  add_found_option(*command, options->found);
+  command
+      ->add_option("--seed", options->seed,
+                   "Of the noise of the simulated machine's pressures; without it they have none")
+      ->check(whole_number());
+  for (const char* const simulated : {"--simulated", "--hidden", "--found", "--seed"}) {
     command->get_option(simulated)->excludes(can);
   }
   command->add_option("--log", options->log, "candump log to write")->capture_default_str();

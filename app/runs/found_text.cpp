@@ -25,7 +25,7 @@ struct Key {
 };
 
 /// A deadband narrower than the bypass' closing would keep the bypass partly closed at neutral.
-constexpr std::array<Key, 11> kKeys = {{
+constexpr std::array<Key, 14> kKeys = {{
     {"oil", "GPa", 0.1, 100.0, &Found::bulk_modulus_gpa},
     {"exponent", "", 0.5, 4.0, &Found::opening_exponent},
     {"dead_band", "", plant::kBypassClosingTravel, 0.6, &Found::deadband_ratio},
@@ -37,6 +37,9 @@ constexpr std::array<Key, 11> kKeys = {{
     {"dead_time", "s", 0.0, 0.5, &Found::dead_time_s},
     {"spool_closes", "s", 0.001, 1.0, &Found::closing_time_constant_s},
     {"bypass_leak", "", 0.1, 10.0, &Found::bypass_leak_factor},
+    {"piston_leak", "", 0.0, 20.0, &Found::piston_leak_factor},
+    {"dead_band_more", "", 0.0, 0.1, &Found::dead_band_more_ratio},
+    {"stroke_zero_more", "m", -0.03, 0.03, &Found::stroke_zero_more_m},
 }};
 
 std::string with_unit(const std::string& text, const Key& key) {

@@ -233,6 +233,12 @@ def identify_says_what_next(graben):
                     better.with_name("none.toml"))
         needle = f"next: graben identify --check --log {log} --profile {better} says how well it fits"
         assert done.returncode == 1 and needle in done.stderr, done
+        # A table without the one drive that is asked for.
+        windows, nothing = pathlib.Path(name) / "windows.toml", pathlib.Path(name) / "nothing.log"
+        windows.write_text("")
+        done = call(graben, "commission", "--profile", "excavator_12t", "--log", nothing, "--only", "swing", "--windows", windows)
+        assert done.returncode == 1 and "nothing is left to be tried: left out" in done.stderr, done
+        assert not done.stdout and not nothing.exists(), done
     refused(graben, "--log of a machine's log, as `graben commission` writes it", "identify", status=2)
 
 

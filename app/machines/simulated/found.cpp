@@ -88,6 +88,15 @@ void make_as_found(plant::ExcavatorPlantProfile& plant, const FoundRanges& range
         finding.around(told.closing_time_constant_s, plant.spool[i].closing_time_constant_s, 0.0);
     plant.machine.valve.spool[i].bypass_closed *= finding.around(told.bypass_leak_factor, 1.0, 0.0);
   }
+  plant.piston_leak_m3pspa *= finding.around(told.piston_leak_factor, 1.0, 0.0);
+  for (plant::SpoolDynamics& spool : plant.spool) {
+    for (double* side : {&spool.extend.deadband_ratio, &spool.retract.deadband_ratio}) {
+      *side += finding.around(told.dead_band_more_ratio, 0.0, 0.0);
+    }
+  }
+  for (double& zero_m : plant.sensors.stroke_zero_m) {
+    zero_m += finding.around(told.stroke_zero_more_m, 0.0, 0.0);
+  }
 }
 
 }  // namespace graben::machines

@@ -54,7 +54,11 @@ struct Found {
   std::optional<Told> dead_time_s;  ///< Beside what the controller is told.
   /// Of a spool on its way to neutral, where that is another; unless told as on the way out.
   std::optional<Told> closing_time_constant_s;
-  std::optional<Told> bypass_leak_factor;  ///< What a closed bypass still lets through.
+  // What wears: on what there is, of all pistons, valve sides, sensors alike.
+  std::optional<Told> piston_leak_factor;
+  std::optional<Told> dead_band_more_ratio;  ///< Of the travel.
+  std::optional<Told> stroke_zero_more_m;    ///< Shown too much.
+  std::optional<Told> bypass_leak_factor;    ///< What a closed bypass still lets through.
 };
 
 /// Draws what is found from the plant's seed if it `is_drawn`; what is told goes before that, and

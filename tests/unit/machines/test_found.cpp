@@ -271,6 +271,25 @@ TEST(a_range_is_drawn_within) {
   assert_near(plant.bulk_modulus_pa, plain.bulk_modulus_pa, 0.0);
 }
 
+/// On what there is, and nothing else.
+TEST(what_wears_comes_on_top) {
+  Scenario scenario = with_errors(Errors::kAll, 7);
+  scenario.found.piston_leak_factor = 3.0;
+  scenario.found.dead_band_more_ratio = 0.02;
+  scenario.found.stroke_zero_more_m = -0.005;
+  const plant::ExcavatorPlantProfile plant = arranged(nominal(), scenario).plant;
+  const plant::ExcavatorPlantProfile plain = plant_of(Errors::kAll, 7);
+  assert_near(plant.piston_leak_m3pspa, 3.0 * plain.piston_leak_m3pspa, 1e-20);
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    assert_near(plant.spool[i].retract.deadband_ratio, plain.spool[i].retract.deadband_ratio + 0.02,
+                1e-12);
+    assert_near(plant.spool[i].extend.deadband_ratio, plain.spool[i].extend.deadband_ratio + 0.02,
+                1e-12);
+    assert_near(plant.sensors.stroke_zero_m[i], plain.sensors.stroke_zero_m[i] - 0.005, 1e-12);
+    assert_near(plant.spool[i].time_constant_s, plain.spool[i].time_constant_s, 0.0);
+  }
+}
+
 /// What is told goes before what is drawn, with errors or without, and leaves the rest as it is.
 TEST(what_is_told_goes_before_what_is_drawn) {
   struct Told {
