@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Machines that the controller is not told: cells.py GRABEN [--fine | --map] [--speed S] [--law LAW] [--jobs N]
+"""Machines that the controller is not told: cells.py GRABEN [--fine | --map | --cell OIL EXPONENT DEAD_BAND]
+[--speed S] [--law LAW] [--jobs N]
 digs the dry path, without any other error, on simulated machines whose oil, opening exponent and dead band
 are each cell's, and prints a row a cell: how it ended, largest distance of the true tip from the path,
 ringing (rms above 1 Hz), and how far the learnt ends of the dead bands are from the true ones.
@@ -72,6 +73,8 @@ def main():
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--fine", action="store_true", help="125 cells instead of 36")
     which.add_argument("--map", action="store_true", help="80 cells instead of 36, of softer oil and other edges")
+    which.add_argument("--cell", nargs=3, type=float, action="append", metavar=("GPA", "EXPONENT", "DEAD_BAND"),
+                       help="this one alone, or with others like it")
     parser.add_argument("--speed", type=share_of_speed, default=1.0, metavar="S", help="of the full one, 0.05 .. 1")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--law", help="the profile's unless told")
@@ -81,7 +84,8 @@ def main():
     parser.add_argument("--may-miss", type=int, default=0, metavar="CELLS")
     options = parser.parse_args()
     how = ("--speed", str(options.speed), *(("--law", options.law) if options.law else ()))
-    cells = list(itertools.product(*(FINE if options.fine else MAP if options.map else COARSE)))
+    every = FINE if options.fine else MAP if options.map else COARSE
+    cells = [tuple(cell) for cell in options.cell] if options.cell else list(itertools.product(*every))
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         try:
             rows = list(pool.map(lambda cell: run(options.graben, cell, how, pathlib.Path(folder)), cells))
