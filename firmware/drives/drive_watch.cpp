@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/learnt/tuning.hpp"
 #include "firmware/drives/tuning.hpp"
 #include "firmware/safety/common_inputs.hpp"
 

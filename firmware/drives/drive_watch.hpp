@@ -7,7 +7,7 @@
 #include "firmware/drives/blocked.hpp"
 #include "firmware/drives/direction_watch.hpp"
 #include "firmware/drives/flow_watch.hpp"
-#include "firmware/drives/learnt_valve.hpp"
+#include "firmware/drives/learnt/learnt_valve.hpp"
 #include "firmware/drives/motion_watch.hpp"
 #include "firmware/drives/rest_watch.hpp"
 #include "firmware/drives/spool_watch.hpp"

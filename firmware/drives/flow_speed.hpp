@@ -3,7 +3,7 @@
 /// What a drive can do at its measured opening and pressures.
 
 #include "firmware/drives/drive_validation.hpp"
-#include "firmware/drives/learnt_valve.hpp"
+#include "firmware/drives/learnt/learnt_valve.hpp"
 
 namespace graben {
 

@@ -6,7 +6,7 @@
 #include "firmware/core/fault_set.hpp"
 #include "firmware/drives/drive_validation.hpp"
 #include "firmware/drives/flow_speed.hpp"
-#include "firmware/drives/learnt_valve.hpp"
+#include "firmware/drives/learnt/learnt_valve.hpp"
 
 namespace graben {
 

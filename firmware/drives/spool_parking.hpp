@@ -4,7 +4,7 @@
 /// would cross its dead band all the time: wear, heat, and oil that is late. So it waits at the
 /// edge of its dead band, on the side where it was, with its bypass closed.
 
-#include "firmware/drives/learnt_valve.hpp"
+#include "firmware/drives/learnt/learnt_valve.hpp"
 
 namespace graben {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "firmware/drives/tuning.hpp"
+#include "firmware/drives/learnt/tuning.hpp"
 
 namespace graben {
 namespace {

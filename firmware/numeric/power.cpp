@@ -11,8 +11,9 @@ namespace {
 /// Terms of the logarithm's series. [-; size: z^2 is at most 0.0295, so the first one that is left
 /// out is 2e-17 of the first]
 constexpr int kTerms = 10;
-/// ln 2, and sqrt(1/2). [-; exact]
+/// ln 2. [-; derived: to more digits than a double has]
 constexpr double kLn2 = 0.69314718055994530942;
+/// Least mantissa of the series, sqrt(1/2). [-; derived: its doubled one is as far beyond 1]
 constexpr double kRootHalf = 0.70710678118654752440;
 
 /// ln(m) = 2 artanh(z) with z = (m - 1) / (m + 1), of the mantissa around 1.

@@ -16,7 +16,7 @@ from includes import Includes, without_comments
 TABLE = {
     "algorithm": "all_of clamp copy copy_n count fill find_if max max_element min min_element none_of transform upper_bound",
     "array": "array",
-    "cmath": "abs acos asin atan2 ceil copysign cos exp floor hypot isfinite pow remainder signbit sin sqrt tan",
+    "cmath": "abs acos asin atan2 ceil copysign cos exp floor frexp hypot isfinite remainder signbit sin sqrt tan",
     "cstddef": "size_t",
     "cstdint": "uint8_t uint16_t uint32_t uint64_t int8_t int16_t int32_t int64_t",
     "cstring": "memcpy",

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/drives/tuning.hpp"
+#include "firmware/drives/learnt/tuning.hpp"
 
 namespace graben::ecu {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "firmware/drives/learnt_valve.hpp"
+#include "firmware/drives/learnt/learnt_valve.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dead bands and openings that are learnt from spool and stroke.
 
-#include "firmware/drives/learnt_valve.hpp"
+#include "firmware/drives/learnt/learnt_valve.hpp"
 
 #include <cmath>
 

@@ -55,26 +55,6 @@ TEST(a_drive_that_its_pump_does_not_feed_stops) {
   }
 }
 
-/// Slow motion says nothing of a valve for 10 s after a load has pressed on any drive; nor while one
-/// is not known, which is no reason to wait on.
-TEST(a_load_that_has_pressed_is_remembered, Machine machine) {
-  for (DriveRow& row : machine.bank.row) {
-    row.watch.relief_pa = 35e6;
-  }
-  machine.run(20);
-  const double& pressed_s = machine.state.drives.pressed_s;
-  assert_near(pressed_s, 0.0, 0.0);
-  machine.frozen = true;
-  machine.inputs.drive[kArm].rod_pressure_pa = 30e6;
-  machine.step();
-  assert_near(pressed_s, 10.0, 0.0);
-  machine.frozen = false;
-  machine.run(8);
-  assert_near(pressed_s, 10.0 - 8.0 * kPeriod_s, 1e-9);
-  machine.run(static_cast<int>(10.0 / kPeriod_s));
-  assert_near(pressed_s, 0.0, 0.0);
-}
-
 TEST(pressures_and_swash_slow, Machine pressure) {
   pressure.step();
   pressure.frozen = true;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "firmware/drives/learnt_valve.hpp"
+#include "firmware/drives/learnt/learnt_valve.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/learnt/tuning.hpp"
 #include "firmware/drives/spool_opening.hpp"
-#include "firmware/drives/tuning.hpp"
 #include "firmware/numeric/power.hpp"
 
 namespace graben {
