@@ -22,8 +22,8 @@ constexpr double kLongestStep_s = 0.5;
 constexpr double kShortestRun_s = 3.0;
 constexpr double kLargestAngle_rad = 100.0;  // Swing may count turns.
 constexpr double kLargestVelocity_radps = 20.0;
-// An angle that is the integral of its velocity, noise and filter included.
-constexpr double kLeastAgreement = 0.5;
+// An angle that is the integral of its velocity, noise and filter included: twice of it is not.
+constexpr double kLeastAgreement = 0.8;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", where, what));
