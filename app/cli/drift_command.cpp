@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -114,8 +115,14 @@ void drift(const DriftCommand& options) {
   for (const std::string& order : orders) {
     fmt::print("work order: {}\n", order);
   }
+  const auto known = static_cast<std::size_t>(std::count_if(
+      drifts.begin(), drifts.end(), [](const auto& drift) { return drift.trend.known; }));
   if (orders.empty()) {
-    fmt::print("no work order: nothing has changed beyond its noise\n");
+    fmt::print("no work order: none of {} figures has changed beyond its noise\n", known);
+  }
+  if (known < drifts.size()) {
+    fmt::print("note: {} of {} figures are in too few logs for a trend\n", drifts.size() - known,
+               drifts.size());
   }
 }
 
