@@ -57,6 +57,15 @@ def changed(root: pathlib.Path, area: str) -> tuple[set[str] | None, str]:
     return set(names.splitlines()), f"since {row['commit'][:10]}"
 
 
+def before(root: pathlib.Path, area: str, name: str) -> str:
+    """A file as it was at the last whole run of the area; empty where it was not there."""
+    commit = tomllib.loads((root / RECORD).read_text(encoding="utf-8"))[area]["commit"]
+    try:
+        return git(root, "show", f"{commit}:{name}")
+    except subprocess.CalledProcessError:
+        return ""
+
+
 def below(names: set[str], paths: list[str]) -> list[str]:
     return sorted(name for name in names if any(path == "." or name == path or name.startswith(path.rstrip("/") + "/") for path in paths))
 

@@ -51,6 +51,8 @@ with tempfile.TemporaryDirectory() as folder:
     (origin / "new.cpp").write_text("4")
     names, _ = changed_since.changed(origin, "tidy")
     assert names == {changed_since.RECORD, "firmware/a.cpp", "firmware/b.cpp", "new.cpp"}, names
+    assert changed_since.before(origin, "tidy", "firmware/a.cpp") == "1"
+    assert changed_since.before(origin, "tidy", "firmware/b.cpp") == ""
     assert changed_since.below(names, ["firmware"]) == ["firmware/a.cpp", "firmware/b.cpp"]
     assert changed_since.below(names, ["firm", "b.cpp"]) == []
     assert changed_since.below(names, ["."]) == sorted(names)
@@ -66,4 +68,4 @@ with tempfile.TemporaryDirectory() as folder:
     everything(whole, "not known here")
     (whole / changed_since.RECORD).write_text(record.replace("clang-tidy: ", "clang-tidy: another "))
     everything(whole, "the whole run had")
-print("changed_since.py: 10 cases as wanted")
+print("changed_since.py: 12 cases as wanted")

@@ -8,6 +8,7 @@ gate, is only looked at. With --build, so is a command that is word by word a te
 ctest that names some: ./test runs it anyway.
 """
 
+import functools
 import json
 import os
 import pathlib
@@ -152,9 +153,18 @@ def run(where: str, script: str):
         problems.append(f"{where}: block failed")
 
 
+@functools.cache
+def bodies_before(name: str) -> frozenset[str]:
+    """The blocks of a document as they were at the last whole run: words around a block change no command."""
+    text = changed_since.before(root, "readme", name)
+    return frozenset("\n".join(lines) for _, lines, reason in blocks(text) if not reason)
+
+
 def is_changed(name: str, body: str) -> bool:
-    """Whether a block's document changed, or a file that it names, or what it calls through ./run or a preset."""
-    files = [name, *(word for word in re.findall(r"[\w./-]+", body) if is_file_of(word))]
+    """Whether a block changed, or a file that it names, or what it calls through ./run or a preset."""
+    if name in names and body not in bodies_before(name):
+        return True
+    files = [word for word in re.findall(r"[\w./-]+", body) if is_file_of(word)]
     called = ["run", "toolchain", "app/cli", "app/machines", "CMakeLists.txt", "CMakePresets.json"]
     return bool(changed_since.below(names, [word.removeprefix("./").rstrip("/") for word in files] + called))
 
