@@ -95,7 +95,7 @@ LawInTime::LawInTime(const ExcavatorProfile& profile, const OilGains& gains,
     throw std::runtime_error("a pose is out of reach");
   }
   const std::array<LoadState, 2> load = {kPressed, kPressed};
-  modes_ = oil_modes(profile.oil, profile.geometry, now, {load.data(), 2}, 0.0);
+  modes_ = oil_modes(profile.oil, profile.geometry, now, {load.data(), 2}, 0.0, 1.0);
 }
 
 Eigen::Vector2d LawInTime::step(const Eigen::Vector4d& seen, State& state) const {

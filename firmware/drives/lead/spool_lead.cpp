@@ -49,7 +49,7 @@ SpoolModel spool_after(double time_constant_s, double sent_ratio, const SpoolMod
 
 double trusted_lead(double time_constant_s, double wanted_ratio, const LedSpool& spool) {
   const double leading = led_duty(time_constant_s, wanted_ratio, spool.model) - wanted_ratio;
-  return wanted_ratio + trust(spool) * leading;
+  return wanted_ratio + trust(spool) * std::clamp(leading, -kLeadMost, kLeadMost);
 }
 
 void next_led(double time_constant_s, double sent_ratio, LedSpool& spool) {

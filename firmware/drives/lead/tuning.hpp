@@ -16,11 +16,14 @@ inline constexpr double kLeadHome = 1e-3;
 /// at 0.5]
 inline constexpr double kLeadDoubted = 1.5;
 /// The same from which on nothing is led. [-; measured: `campaign dig --draws 40 --found
-/// spool_lag=0.015,spool_closes=0.05`: 60 / 141 mm; with 0.12 as the most that it adds 43 / 83, but
-/// the exact 22 t has 6.5 mm at half speed]
+/// spool_lag=0.015,spool_closes=0.05`: 60 / 141 mm where its most is not bounded]
 inline constexpr double kLeadGivenUp = 5.0;
 /// Time over which it is judged. [s; chosen: a few motions of a spool; not tried]
 inline constexpr double kLeadJudged_s = 2.0;
+/// Most that it adds. [-; measured: less than a dead band, or it changes a duty's sign: `campaign
+/// dig --draws 20`, boom 0.3 changes a second, unbounded 3.0, 0.13 0.6; spools that open in 15 ms
+/// and close in 50: 46 / 65 mm, unbounded 56 / 120]
+inline constexpr double kLeadMost = 0.1;
 /// Square of a way below which the model stands, and says nothing. [-; chosen: 1 % of the travel;
 /// not tried]
 inline constexpr double kLeadStill = 1e-4;

@@ -129,6 +129,21 @@ void feel_standing(const LearntSeen& mean, const LearntSeen& now, double period_
   }
 }
 
+/// A cylinder that stands in the air though its spool is where its dead band should have ended:
+/// it ends farther out. What moves at 1 mm/s or more is compared; this has nothing to compare.
+void feel_still(const LearntSeen& mean, const LearntSeen& now, double period_s, LearntValve& valve,
+                LearntSide& side) {
+  const double opening = std::min(mean.opening, now.opening);
+  const bool stands = opening > side.edge && mean.asked.speed_mps > kStillLeastAsked_mps &&
+                      now.asked.speed_mps > kStillLeastAsked_mps &&
+                      std::abs(mean.speed_mps) < kStill_mps;
+  valve.still_s = stands ? valve.still_s + period_s : 0.0;
+  if (valve.still_s > kStillStood_s) {
+    const double most = std::min(opening, kLearntEdgeMost);
+    side.edge = std::max(side.edge, std::min(side.edge + kStillRate_ps * period_s, most));
+  }
+}
+
 }  // namespace
 
 const LearntSide& LearntValve::side(bool extends) const { return extends ? extend : retract; }
@@ -147,6 +162,7 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
     valve.late = {};
     valve.seen = {};
     valve.unmoved_s = 0.0;
+    valve.still_s = 0.0;
     valve.turning_s = kMotorSetsOff_s;
     return;
   }
@@ -168,6 +184,8 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   const LearntSeen mean = along(valve.seen, way);
   if (drive.spool.bypass_closes_at > 0.0) {
     feel_standing(mean, along(now, way), period_s, valve, side);
+  } else if (from == LearntFrom::kAnyMotion) {
+    feel_still(mean, along(now, way), period_s, valve, side);
   }
   if (!steady || !may_be_compared(mean, from)) {
     return;

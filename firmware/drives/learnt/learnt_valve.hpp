@@ -49,6 +49,7 @@ struct LearntValve {
   LearntSeen seen;                ///< Low-passed.
   double stroke_m = 0.0;
   double unmoved_s = 0.0;  ///< That a motor has stood under an open spool.
+  double still_s = 0.0;    ///< So long a cylinder has stood in the air at its edge.
   double turning_s = 0.0;  ///< Since a motor last stood.
 
   [[nodiscard]] const LearntSide& side(bool extends) const;

@@ -95,4 +95,18 @@ inline constexpr double kStandingShare = 0.3;
 /// reached, so little is overshot; 0.5 tried before]
 inline constexpr double kStandingRate_ps = 0.1;
 
+// A cylinder that stands in the air under a spool at its edge (learnt_valve.cpp)
+
+/// Asked speed from which it should creep. [m/s; chosen: not tried]
+inline constexpr double kStillLeastAsked_mps = 0.002;
+/// Speed below which it stands. [m/s; chosen: under kLearntCreeps_mps, from which it is compared;
+/// not tried]
+inline constexpr double kStill_mps = 0.0005;
+/// Time for which it has stood before its edge is moved. [s; chosen: steps of a stroke of 0.1 mm
+/// come so far apart at 0.3 mm/s; not tried]
+inline constexpr double kStillStood_s = 0.3;
+/// How fast the edge is moved. [1/s; measured: `cells.py --map --speed 0.1`: 80 of 80 cells end,
+/// without 79; a frozen sensor is seen as soon]
+inline constexpr double kStillRate_ps = 0.02;
+
 }  // namespace graben

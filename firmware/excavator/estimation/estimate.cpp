@@ -58,6 +58,16 @@ void weigh(const ExcavatorProfile& profile, const OilSeen& seen, EcuMode mode,
   state.payload_kg += kPayloadWeight * (measured_kg - state.payload_kg);
 }
 
+/// Nothing pushes the teeth, as the last cycle tells.
+bool are_teeth_free(const ExcavatorProfile& profile, const EstimationState& state) {
+  double links_kg = 0.0;
+  for (const LinkMass& link : profile.oil.link) {
+    links_kg += link.mass_kg;
+  }
+  const TipLoad& tip = state.load_observer.told;
+  return tip.known && tip.force_n.norm() < kFreeTip * links_kg * kStandardGravity_mps2;
+}
+
 void estimate_oil(const ExcavatorModel& machine, const OilGains& gains, const ExcavatorValid& valid,
                   const InputState& inputs, bool for_oil, const Cycle& cycle, const LastCycle& last,
                   EstimationState& state) {
@@ -81,8 +91,12 @@ void estimate_oil(const ExcavatorModel& machine, const OilGains& gains, const Ex
   const bool reached = state.pose.status == ReachStatus::kOk;
   if (reached) {
     weigh(profile, seen, mode, state);
-    state.modes =
-        oil_modes(profile.oil, profile.geometry, state.pose, state.load, state.payload_kg);
+    next_softness(seen.force_n[kBoom] / profile.geometry.cylinder[kBoom].cap_area_m2(),
+                  state.modes.omega_radps[0],
+                  mode == EcuMode::kActive && seen.force_known && are_teeth_free(profile, state),
+                  cycle.elapsed_s, state.softness);
+    state.modes = oil_modes(profile.oil, profile.geometry, state.pose, state.load, state.payload_kg,
+                            state.softness.share);
   }
   const bool leads = reached && seen.force_known && for_oil && are_quick(machine.drives);
   next_oil(gains, state.modes, seen, mode == EcuMode::kActive && reached, leads, state.oil);

@@ -6,6 +6,7 @@
 #include "firmware/excavator/estimation/load/load_observer.hpp"
 #include "firmware/excavator/estimation/oil/held_load.hpp"
 #include "firmware/excavator/estimation/oil/oil_gains.hpp"
+#include "firmware/excavator/estimation/oil/oil_softness.hpp"
 #include "firmware/excavator/inputs/inputs.hpp"
 #include "firmware/excavator/stage.hpp"
 #include "firmware/excavator/swing.hpp"
@@ -28,6 +29,7 @@ struct EstimationState {
   std::array<LoadState, kDriveCount> load{};
   ExcavatorServo servo;
   OilState oil;
+  OilSoftness softness;
   OilModes modes;
   HeldLoad held;
   double payload_kg = 0.0;  ///< As weighed at rest, for the oil's modes.

@@ -24,7 +24,7 @@ std::array<LoadState, kDriveCount> pressed() {
 
 OilModes modes_at(const KinematicState& now, double payload_kg = 0.0) {
   const std::array<LoadState, kDriveCount> load = pressed();
-  return oil_modes(machine().oil, machine().geometry, now, {load.data(), 2}, payload_kg);
+  return oil_modes(machine().oil, machine().geometry, now, {load.data(), 2}, payload_kg, 1.0);
 }
 
 /// x, y of the mass centre and angle of each link; the bucket is locked to the arm as it is at
@@ -311,6 +311,8 @@ struct Following {
 TEST(no_spool_is_led_by_a_model_that_it_does_not_follow) {
   Following sound{0.02, {}, {}};
   sound.go(20.0);
+  // Not even from rest by as much as a dead band, or a duty changes its sign for nothing.
+  assert_true(sound.added > 0.05 && sound.added < 0.1 + 1e-9);
   sound.added = 0.0;  // The way from rest is another.
   sound.go(5.0);
   assert_true(sound.added > 0.05);

@@ -30,7 +30,8 @@ struct OilDesign {
   double balance = 0.01;           ///< Weight of the missing balance against travel.
   double load_m2ps = 1e-4;         ///< How fast the load may change, as compression squared.
   double flow_m2ps3 = 1e-5;        ///< How fast the flow's error may change.
-  double travel_noise_m = 5e-5;    ///< Of a stroke, its resolution included.
+  double travel_noise_m = 7e-5;    ///< Of a stroke, its resolution included; with 5e-5 the steps of
+                                   ///< 0.1 mm move the pilot valves half as much again.
   double pressure_noise_m = 2e-3;  ///< Of a force, as compression; more than the sensors' own, so
                                    ///< that a stiffness that is not known does no harm.
 };

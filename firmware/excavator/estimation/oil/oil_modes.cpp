@@ -88,12 +88,14 @@ double oil_column_npm(const OilProfile& oil, const CylinderGeometry& cylinder,
 }
 
 OilModes oil_modes(const OilProfile& oil, const ExcavatorGeometry& geometry,
-                   const KinematicState& now, Span<const LoadState> load, double payload_kg) {
+                   const KinematicState& now, Span<const LoadState> load, double payload_kg,
+                   double stiffness_share) {
   OilModes modes;
   for (int axis = 0; axis < 2; ++axis) {
     const auto k = static_cast<unsigned>(axis);
-    modes.stiffness_npm[axis] = oil_column_npm(oil, geometry.cylinder[k], oil.dead_volume_m3[k],
-                                               now.strokes_m[axis], load[axis]);
+    modes.stiffness_npm[axis] =
+        stiffness_share * oil_column_npm(oil, geometry.cylinder[k], oil.dead_volume_m3[k],
+                                         now.strokes_m[axis], load[axis]);
   }
   // With x = K^-1/2 y the pair is K^-1/2 M K^-1/2 y = y / omega^2, symmetric: one turn solves it.
   const Eigen::Vector2d root = modes.stiffness_npm.cwiseSqrt();

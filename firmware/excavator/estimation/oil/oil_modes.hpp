@@ -38,9 +38,10 @@ struct OilModes {
   Eigen::Vector2d stiffness_npm = Eigen::Vector2d::Ones();  ///< Of boom and arm.
 };
 
-/// K shape = M shape omega^2. `load` has the filtered pressures of boom and arm.
+/// K shape = M shape omega^2. `load` has the filtered pressures of boom and arm; the oil is
+/// `stiffness_share` as stiff as the profile tells.
 [[nodiscard]] OilModes oil_modes(const OilProfile& oil, const ExcavatorGeometry& geometry,
                                  const KinematicState& now, Span<const LoadState> load,
-                                 double payload_kg);
+                                 double payload_kg, double stiffness_share);
 
 }  // namespace graben
