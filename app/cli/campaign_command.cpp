@@ -12,8 +12,10 @@
 #include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
+#include "app/cli/crest_ground.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
+#include "app/machines/profile_file.hpp"
 #include "app/runs/assist_run.hpp"
 #include "app/runs/campaign_run.hpp"
 #include "app/runs/ground_campaign.hpp"
@@ -61,6 +63,7 @@ struct AssistCampaign {
   std::string profile = "excavator_22t";
   std::string errors = "all";
   bool unmarked = false;
+  bool surfaces = false;
 };
 
 struct AutodigCampaign {
@@ -296,16 +299,17 @@ void add_campaign_fences(CLI::App& campaign, int& status) {
 }
 
 void add_campaign_assist(CLI::App& campaign, int& status) {
+  const runs::AssistTrial usual;
   auto options = std::make_shared<AssistCampaign>();
   CLI::App* command = campaign.add_subcommand(
       "assist",
       fmt::format(
-          "An operator's arm lever draws the edge along a design: {} cells of 2 designs and "
-          "6 records of levers; cell after cell, then the next draw of each; goes on as dig "
+          "An operator's arm lever draws the edge along a design: {} cells of {} designs and "
+          "{} records of levers; cell after cell, then the next draw of each; goes on as dig "
           "does",
-          runs::assist_cells()));
+          usual.cells(), usual.designs(), runs::kLeverRecords.size()));
   add_profile_option(*command, options->profile);
-  options->campaign.draws = 40 * runs::assist_cells();
+  options->campaign.draws = 40 * usual.cells();
   add_campaign_options(*command, options->campaign);
   command
       ->add_option("--errors", options->errors,
@@ -314,15 +318,23 @@ void add_campaign_assist(CLI::App& campaign, int& status) {
       ->capture_default_str();
   command->add_flag("--unmarked", options->unmarked,
                     "The edge was not touched to a mark at the start");
+  command->add_flag("--surfaces", options->surfaces,
+                    "Designs of heights on a grid: flat, a slope, a V ditch, and the shipped "
+                    "crest.xml; else the two that are planes");
   add_simulated_options(*command, options->simulated);
-  add_examples(*command, {"campaign assist --draws 24 --summary out/assist.csv"});
+  add_examples(*command, {"campaign assist --draws 24 --summary out/assist.csv",
+                          "campaign assist --surfaces --draws 24 --summary out/surfaces.csv"});
   on_callback(*command, options, status,
               [](const AssistCampaign& of, const runs::CampaignOptions& chosen,
                  const runs::Progress& progress) {
-                return runs::campaign_assist(chosen,
-                                             machines::load_simulated_excavator(
-                                                 machines::find_profile(of.profile), of.simulated),
-                                             of.errors, !of.unmarked, progress);
+                const machines::SimulatedExcavator machine = machines::load_simulated_excavator(
+                    machines::find_profile(of.profile), of.simulated);
+                runs::AssistTrial trial{of.errors, !of.unmarked, {}};
+                if (of.surfaces) {
+                  trial.grounds = runs::assist_grounds(machine.profile);
+                  trial.grounds.push_back(crest_ground(machine.profile));
+                }
+                return runs::campaign_assist(chosen, machine, trial, progress);
               });
 }
 

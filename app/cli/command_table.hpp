@@ -71,6 +71,13 @@ inline constexpr CommandRow kCommands[] = {
      "ASCII "
      "grid, with date and machine; against a design cut and fill. What no edge has touched it does "
      "not know"},
+    {"surface", "built",
+     "A design as an excavator's task takes it: of a LandXML surface or of points heights on an "
+     "even grid, cut out about the machine, as an ESRI ASCII grid"},
+    {"site", "built",
+     "Where a machine stands on its site, from points that its teeth have touched: a benchmark and "
+     "one or more for the heading; prints the section [site] of a task. Points too near to each "
+     "other, or that contradict each other, end with status 1"},
     {"scope", "scope",
      "The machine in a browser: posed, with plots and faults, from what is on the bus. Serves a "
      "page until SIGINT or SIGTERM; a bus is only heard. Needs no privilege"},

@@ -36,6 +36,8 @@ void add_measure_up(CLI::App& app, int& status);
 void add_verdict(CLI::App& app, int& status);
 void add_drift(CLI::App& app, int& status);
 void add_as_built(CLI::App& app, int& status);
+void add_surface(CLI::App& app, int& status);
+void add_site(CLI::App& app, int& status);
 void add_scope(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_export(CLI::App& app, int& status);

@@ -110,6 +110,7 @@ void plan_task(const PlanCommand& options) {
       machines::load_excavator(machines::find_profile(options.profile));
   const machines::TaskFile task =
       machines::load_task(machines::find_task(options.task), machine.profile);
+  machines::demand_steps(task, "plan");
   const SwingKinematics kinematics(machine.profile.geometry);
   const std::vector<runs::PlanSample> samples =
       runs::sample_task(machine.profile, kinematics, task.result.program, options.step_s);

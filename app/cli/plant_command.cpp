@@ -78,6 +78,7 @@ nlohmann::ordered_json run_program(const PlantCommand& options,
   }
   const machines::TaskFile task =
       machines::load_task(machines::find_task(options.task.value_or("flatten")), machine.profile);
+  machines::demand_steps(task, "--operator program");
   run.task_number = static_cast<std::uint8_t>(options.task_number.value_or(0));
   return reports::plant_json(
       runs::run_task_plant(runs::arranged(machine, tried), task.result.program, run));

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the example designs banked.xml and curved.xml, LandXML: example_designs.py FOLDER."""
+"""Writes the example designs banked.xml, curved.xml and crest.xml, LandXML: example_designs.py FOLDER."""
 
 import math
 import pathlib
@@ -128,8 +128,27 @@ def faces(rows):
             yield from ((a, a + 1, b), (a + 1, b + 1, b))
 
 
-for name, way in WAYS.items():
+# Heights over a machine's ground by the reach, m; the machine stands at the start, turned by TURN.
+CREST = [(2.5, -0.5), (4.2, -0.5), (4.7, -0.3), (5.3, -0.6), (9.0, 0.14)]
+TURN, SKEW, BESIDE = 0.3, 0.1, (-4.0, -2.0, 0.0, 2.0, 4.0)
+CREST_SAID = """Ground with a crest between two hollows, askew to the reach of an excavator at 100 m east and 200 m north that looks
+     0.3 rad to the left of east."""
+
+
+def crest_points():
+    for reach, height in CREST:
+        for left in BESIDE:
+            east, north, _ = beside((*on((EAST, NORTH, TURN), reach + SKEW * left, 0.0)[:2], TURN), left)
+            yield f"{north:.4f} {east:.4f} {HEIGHT + height:.4f}"
+
+
+def write(name, said, track, all_points, rows):
     (pathlib.Path(sys.argv[1]) / f"{name}.xml").write_text(TEXT.format(
-        said=way.said, name=name, alignment=alignment(way.plan),
-        points="\n".join(f'          <P id="{number}">{point}</P>' for number, point in enumerate(points(way), 1)),
-        faces="\n".join(f"          <F>{a} {b} {c}</F>" for a, b, c in faces(len(way.stations)))), encoding="utf-8")
+        said=said, name=name, alignment=track,
+        points="\n".join(f'          <P id="{number}">{point}</P>' for number, point in enumerate(all_points, 1)),
+        faces="\n".join(f"          <F>{a} {b} {c}</F>" for a, b, c in faces(rows))), encoding="utf-8")
+
+
+for title, way in WAYS.items():
+    write(title, way.said, alignment(way.plan), points(way), len(way.stations))
+write("crest", CREST_SAID, "", crest_points(), len(CREST))

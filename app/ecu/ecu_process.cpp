@@ -69,8 +69,8 @@ std::optional<machines::AnyMachine> read_profile(const std::string& name) try {
 }
 
 /// Nothing, with every error told, if one of the tasks is missing, wrong, or can't be had.
-std::optional<TaskBook> read_tasks(const std::vector<std::string>& names,
-                                   const ExcavatorProfile& profile) try {
+std::optional<machines::TaskShelf> read_tasks(const std::vector<std::string>& names,
+                                              const ExcavatorProfile& profile) try {
   return machines::load_tasks(names, {"/etc/graben/tasks", "/usr/share/graben/tasks"}, profile);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "graben-ecu: %s\n", error.what());
@@ -345,10 +345,11 @@ template <class Machine>
 int run_machine(const Machine& machine, const EcuOptions& options, TimeUs began_us) {
   using Kind = KindOf<Machine>;
   if constexpr (Kind::kHasTasks) {
-    const auto book = read_tasks(options.tasks, machine.profile);
-    return book ? run_controller<Kind>({machine.profile, *book}, Kind::table(machine), machine.hash,
-                                       options, began_us)
-                : kWrongFile;
+    // The controller looks into its surfaces as long as it runs.
+    const auto shelf = read_tasks(options.tasks, machine.profile);
+    return shelf ? run_controller<Kind>({machine.profile, shelf->book}, Kind::table(machine),
+                                        machine.hash, options, began_us)
+                 : kWrongFile;
   } else {
     if (!options.tasks.empty()) {
       std::fprintf(stderr, "graben-ecu: --task: %s is a %s's profile; a %s has no tasks\n",

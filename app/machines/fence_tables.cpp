@@ -116,6 +116,9 @@ Fence read_fence(TomlReader& reader, const std::string& at) {
 
 std::string fence_text(const Fence& fence) {
   const Eigen::Vector3d& centre_m = fence.centre_m;
+  if (fence.is_surface()) {
+    return "design surface";
+  }
   if (fence.shape == FenceShape::kBox) {
     return fmt::format("box at {:.2f}, {:.2f} m", centre_m.x(), centre_m.y());
   }

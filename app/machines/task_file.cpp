@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <exception>
 #include <stdexcept>
+#include <utility>
 
 #include "app/machines/area_task.hpp"
-#include "app/machines/excavator_sections.hpp"
+#include "app/machines/design_section.hpp"
 #include "app/machines/fence_tables.hpp"
 #include "app/machines/profile_document.hpp"
 #include "app/machines/step_tables.hpp"
@@ -18,35 +17,32 @@
 namespace graben::machines {
 namespace {
 
-constexpr Range kPlace{-30.0, 30.0, "m"};
-/// What the teeth may dip below their line while a drive breaks loose or lags, and some more.
-constexpr double kLeastClearance_m = 0.03;
-
-Eigen::Vector3d read_vector(TomlReader& reader, const std::string& key, const Range& range,
-                            const char* help) {
-  const std::vector<double> values = reader.numbers(key, range, 3, help);
-  return {values[0], values[1], values[2]};
-}
-
-DesignPlane read_design(TomlReader& reader) {
-  DesignPlane design;
-  design.through_m =
-      read_vector(reader, "design.through", kPlace, "a point of the design plane: x, y, z");
-  design.up = read_direction(reader, "design.normal", 3, "upward normal of the plane: x, y, z");
-  design.clearance_m = reader.number("design.clearance", {kLeastClearance_m, 1.0, "m"},
-                                     "least distance of a dig's ends from the design");
-  if (design.up.z() < kDesignUpLeast) {
-    reader.fail("design.normal",
-                fmt::format("must point up; its upward part is {:.3f} of its length; allowed: {} "
-                            ".. 1",
-                            design.up.z(), kDesignUpLeast));
+/// The last fence is the design's, whatever it is.
+void add_surface(const TaskDesign& design, TaskContent& content) {
+  content.request.has_design = design.is_plane;
+  content.request.design = design.plane;
+  content.surface = design.surface;
+  if (design.surface != nullptr) {
+    FenceSet& fences = content.request.fences;
+    fences.fence[static_cast<unsigned>(fences.count++)] = surface_fence(design.surface->surface);
   }
-  return design;
 }
 
-void read_fences(TomlReader& reader, ProgramRequest& request) {
+/// Without steps nothing is planned: what there is are the fences.
+ProgramResult without_steps(const ProgramRequest& request) {
+  ProgramResult result;
+  result.refusal = ProgramRefusal::kNone;
+  FenceSet& fences = result.program.fences;
+  fences = request.fences;
+  if (request.has_design) {
+    fences.fence[static_cast<unsigned>(fences.count++)] = request.design.fence();
+  }
+  return result;
+}
+
+void read_fences(TomlReader& reader, bool has_design, ProgramRequest& request) {
   if (reader.has("fence")) {
-    const bool one_less = request.has_design && !reader.lists();
+    const bool one_less = has_design && !reader.lists();
     const int most = one_less ? kFenceMost - 1 : kFenceMost;
     request.fences.count =
         reader.table_count("fence", 1, most, "fences, a table each; one less with a design");
@@ -61,20 +57,50 @@ void read_fences(TomlReader& reader, ProgramRequest& request) {
 
 ProgramRequest read_area_task(TomlReader& reader, const ExcavatorProfile& profile) {
   ProgramRequest request = read_area(reader, profile);
-  read_fences(reader, request);
+  read_fences(reader, true, request);
   return request;
 }
 
-ProgramRequest read_step_task(TomlReader& reader, const ExcavatorProfile& profile) {
-  ProgramRequest request;
-  read_steps(reader, profile, request);
-  request.has_design = reader.has("design");
-  if (request.has_design) {
-    request.design = read_design(reader);
+TaskContent read_step_task(TomlReader& reader, const ExcavatorProfile& profile,
+                           const std::filesystem::path& folder) {
+  TaskContent content;
+  ProgramRequest& request = content.request;
+  const bool has_design = reader.has("design");
+  const bool digs = !has_design || reader.has("step") || reader.has("start");
+  if (digs) {
+    read_steps(reader, profile, request);
   }
-  read_rounds(reader, request);
-  read_fences(reader, request);
-  return request;
+  DesignPlaces places;
+  places.folder = folder;
+  places.has_site = reader.has("site");
+  if (places.has_site) {
+    places.site = read_site(reader);
+  }
+  TaskDesign design;
+  if (has_design) {
+    design = read_task_design(reader, profile, places, digs);
+    request.has_design = design.is_plane;
+    request.design = design.plane;
+  } else if (places.has_site) {
+    reader.fail("site", "stands without a [design]; steps and fences are the machine's");
+  }
+  if (digs) {
+    read_rounds(reader, request);
+  }
+  read_fences(reader, has_design, request);
+  if (has_design) {
+    add_surface(design, content);
+  }
+  return content;
+}
+
+void demand_steps(const TaskFile& task, const std::string& wanted_by) {
+  if (!task.has_steps()) {
+    throw std::runtime_error(fmt::format(
+        "{}: has a design and no steps, as task Assist wants it; allowed for {}: a task with steps "
+        "or an area",
+        task.name, wanted_by));
+  }
 }
 
 TaskFile load_task(const std::filesystem::path& file, const ExcavatorProfile& profile) {
@@ -83,11 +109,20 @@ TaskFile load_task(const std::filesystem::path& file, const ExcavatorProfile& pr
   TomlReader reader(document.root);
   TaskFile task;
   task.name = file.stem().string();
-  task.request =
-      reader.has("area") ? read_area_task(reader, profile) : read_step_task(reader, profile);
+  if (reader.has("area")) {
+    task.request = read_area_task(reader, profile);
+  } else {
+    TaskContent content = read_step_task(reader, profile, file.parent_path());
+    task.request = content.request;
+    task.surface = std::move(content.surface);
+  }
   reader.refuse_unknown_keys();
   throw_errors(document, reader);
-  task.hash = reader.hash();
+  task.hash = reader.hash() ^ (task.surface != nullptr ? task.surface->hash : 0U);
+  if (!task.has_steps()) {
+    task.result = without_steps(task.request);
+    return task;
+  }
   task.result = plan_program(profile, task.request);
   if (task.result.refusal != ProgramRefusal::kNone) {
     reader.fail(reader.has("area") ? "area" : fmt::format("step[{}]", task.result.step),
@@ -104,18 +139,20 @@ std::filesystem::path find_task(const std::string& name,
   return find_file("task", name, folders);
 }
 
-TaskBook load_tasks(const std::vector<std::string>& names,
-                    const std::vector<std::filesystem::path>& folders,
-                    const ExcavatorProfile& profile) {
+TaskShelf load_tasks(const std::vector<std::string>& names,
+                     const std::vector<std::filesystem::path>& folders,
+                     const ExcavatorProfile& profile) {
   if (names.size() > kTaskMost) {
     throw std::runtime_error(fmt::format("{} tasks; allowed: at most {}", names.size(), kTaskMost));
   }
-  TaskBook book;
+  TaskShelf shelf;
   std::vector<std::string> errors;
   for (const std::string& name : names) {
     try {
-      TaskProgram& program = book.program[static_cast<unsigned>(book.count++)];
-      program = load_task(find_task(name, folders), profile).result.program;
+      TaskProgram& program = shelf.book.program[static_cast<unsigned>(shelf.book.count++)];
+      TaskFile task = load_task(find_task(name, folders), profile);
+      program = task.result.program;
+      shelf.surfaces.push_back(std::move(task.surface));
     } catch (const std::exception& error) {
       errors.emplace_back(error.what());
     }
@@ -123,7 +160,7 @@ TaskBook load_tasks(const std::vector<std::string>& names,
   if (!errors.empty()) {
     throw std::runtime_error(fmt::format("{}", fmt::join(errors, "\n")));
   }
-  return book;
+  return shelf;
 }
 
 }  // namespace graben::machines

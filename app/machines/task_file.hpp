@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "app/machines/height_grid.hpp"
 #include "app/machines/profile_file.hpp"
 #include "firmware/excavator/motion/program/task_program.hpp"
 
@@ -20,6 +22,25 @@ struct TaskFile {
   std::uint32_t hash = 0;  ///< Of the checked values: TomlReader::hash.
   ProgramRequest request;
   ProgramResult result;  ///< Never a refusal.
+  /// Memory of the design, where it is no plane: the last of the program's fences looks at it, so
+  /// it has to be kept as long as anything has one of these.
+  std::shared_ptr<const HeldSurface> surface;
+
+  /// It has steps; else it only says, for task Assist, what is to be made and what must not be
+  /// passed.
+  [[nodiscard]] bool has_steps() const { return request.step_count > 0; }
+};
+
+/// What a task's file says, before it is planned.
+struct TaskContent {
+  ProgramRequest request;
+  std::shared_ptr<const HeldSurface> surface;
+};
+
+/// Programs that can be chosen, and the memory of their surfaces.
+struct TaskShelf {
+  TaskBook book;
+  std::vector<std::shared_ptr<const HeldSurface>> surfaces;
 };
 
 /// Reads, checks and plans a task. Throws ProfileError with every error found; a task that can't be
@@ -27,8 +48,13 @@ struct TaskFile {
 [[nodiscard]] TaskFile load_task(const std::filesystem::path& file,
                                  const ExcavatorProfile& profile);
 
-/// All that a task file of each kind has to say; errors are with the reader.
-[[nodiscard]] ProgramRequest read_step_task(TomlReader& reader, const ExcavatorProfile& profile);
+/// Throws std::runtime_error where a task has no steps, with what is wanted of it: "autodig".
+void demand_steps(const TaskFile& task, const std::string& wanted_by);
+
+/// All that a task file of each kind has to say; errors are with the reader. A design's file is
+/// looked for in `folder`.
+[[nodiscard]] TaskContent read_step_task(TomlReader& reader, const ExcavatorProfile& profile,
+                                         const std::filesystem::path& folder);
 [[nodiscard]] ProgramRequest read_area_task(TomlReader& reader, const ExcavatorProfile& profile);
 
 /// Finds `name` as a path, or as NAME or NAME.toml in one of the folders, like find_profile.
@@ -39,8 +65,8 @@ struct TaskFile {
 
 /// Tasks by file or by name in the folders, at most kTaskMost; the first has the number 0. Throws
 /// std::runtime_error with every error of every one of them.
-[[nodiscard]] TaskBook load_tasks(const std::vector<std::string>& names,
-                                  const std::vector<std::filesystem::path>& folders,
-                                  const ExcavatorProfile& profile);
+[[nodiscard]] TaskShelf load_tasks(const std::vector<std::string>& names,
+                                   const std::vector<std::filesystem::path>& folders,
+                                   const ExcavatorProfile& profile);
 
 }  // namespace graben::machines

@@ -38,7 +38,9 @@ std::string singular_words(int drive) {
 }
 
 bool is_design(const ProgramRequest& request, int fence) {
-  return request.has_design && fence == request.fences.count;
+  return fence == request.fences.count
+             ? request.has_design
+             : request.fences.fence[static_cast<unsigned>(fence)].is_design();
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ json fences_json(const FenceSet& fences, bool has_design) {
     if (fence.is_plane()) {
       told["normal"] = vector(fence.normal);
       told["offset_m"] = rounded(fence.offset_m);
-    } else {
+    } else if (!fence.is_surface()) {
       told["round"] = fence.shape == FenceShape::kCylinder;
       told["centre_m"] = vector(fence.centre_m);
       told["half_m"] = vector(fence.half_m);

@@ -11,18 +11,26 @@
 namespace graben::runs {
 namespace {
 
-struct AssistDraw {
-  AssistOptions options;  ///< With the seed of the machine.
-};
-
-AssistDraw assist_draw(std::uint64_t seed) {
+/// With the seed of the machine.
+AssistOptions assist_draw(const AssistTrial& trial, std::uint64_t seed) {
   const std::uint64_t place = seed > 0 ? seed - 1 : 0;
-  const std::uint64_t cell = place % assist_cells();
-  AssistDraw draw;
-  draw.options.record = static_cast<LeverRecord>(cell % kLeverRecords.size());
-  draw.options.design = static_cast<AssistDesign>(cell / kLeverRecords.size());
-  draw.options.seed = place / assist_cells() + 1;
-  return draw;
+  const std::uint64_t cell = place % trial.cells();
+  const std::size_t design = cell / kLeverRecords.size();
+  AssistOptions options;
+  options.record = static_cast<LeverRecord>(cell % kLeverRecords.size());
+  if (trial.grounds.empty()) {
+    options.design = static_cast<AssistDesign>(design);
+  } else {
+    options.ground = trial.grounds.at(design);
+  }
+  options.marked = trial.marked;
+  options.seed = place / trial.cells() + 1;
+  return options;
+}
+
+std::string design_name(const AssistOptions& of) {
+  return of.ground != nullptr ? of.ground->name
+                              : kAssistDesigns.at(static_cast<std::size_t>(of.design));
 }
 
 double ranked(std::vector<double> values, double share) {
@@ -37,24 +45,24 @@ double ranked(std::vector<double> values, double share) {
 }
 
 /// A line for each design and record: median and 95th percentile of each figure.
-std::string cell_table(const CampaignData& data) {
+std::string cell_table(const CampaignData& data, const AssistTrial& trial) {
   std::map<std::uint64_t, std::vector<std::vector<double>>> cells;
   const std::size_t figures = assist_kind().columns.size();
   for (const auto& [seed, row] : data.rows) {
-    auto& cell = cells[(seed - 1) % assist_cells()];
+    auto& cell = cells[(seed - 1) % trial.cells()];
     cell.resize(figures);
     for (std::size_t i = 0; i < figures; ++i) {
       cell[i].push_back(row.figure[i]);
     }
   }
-  std::string text = fmt::format("\n{:<24}", "median / p95");
+  std::string text = fmt::format("\n{:<26}", "median / p95");
   for (const FigureInfo* info : assist_kind().columns) {
     text += fmt::format("{:>16}", info->column);
   }
   text += "\n";
   for (const auto& [number, cell] : cells) {
-    const AssistOptions of = assist_draw(number + 1).options;
-    text += fmt::format("{:<10}{:<14}", kAssistDesigns.at(static_cast<std::size_t>(of.design)),
+    const AssistOptions of = assist_draw(trial, number + 1);
+    text += fmt::format("{:<13} {:<12}", design_name(of),
                         kLeverRecords.at(static_cast<std::size_t>(of.record)));
     for (std::size_t i = 0; i < figures; ++i) {
       const ShownUnit& unit = assist_kind().columns[i]->unit;
@@ -72,8 +80,6 @@ std::string cell_table(const CampaignData& data) {
 
 }  // namespace
 
-std::uint64_t assist_cells() { return kLeverRecords.size() * kAssistDesigns.size(); }
-
 const CampaignKind& assist_kind() {
   static const CampaignKind kind = {
       "assist", {"done", "not-finished", "fault"}, columns_of(assist_figures())};
@@ -82,12 +88,11 @@ const CampaignKind& assist_kind() {
 
 CampaignOutcome campaign_assist(const CampaignOptions& options,
                                 const machines::SimulatedExcavator& nominal,
-                                const std::string& errors, bool marked, const Progress& progress) {
+                                const AssistTrial& trial, const Progress& progress) {
   const auto draw = [&](std::uint64_t seed) {
-    AssistOptions run = assist_draw(seed).options;
-    run.marked = marked;
+    const AssistOptions run = assist_draw(trial, seed);
     TaskScenario scenario;
-    scenario.errors = errors;
+    scenario.errors = trial.errors;
     scenario.seed = run.seed;
     const AssistResult result = run_assist(arranged(nominal, scenario), run);
     // What did not come to its end keeps its figures.
@@ -98,13 +103,17 @@ CampaignOutcome campaign_assist(const CampaignOptions& options,
     }
     return row;
   };
+  std::string grounds;
+  for (const auto& ground : trial.grounds) {
+    grounds += fmt::format(", {} {:08x}", ground->name, ground->surface->hash);
+  }
   CampaignOutcome outcome = run_campaign(
       options, assist_kind(),
-      fmt::format("assist {} {:08x}{}, {} cells, {}, errors {}", nominal.name, nominal.hash,
-                  nominal.simulated.empty() ? "" : " as " + nominal.simulated, assist_cells(),
-                  marked ? "marked" : "no mark", errors),
+      fmt::format("assist {} {:08x}{}, {} cells, {}, errors {}{}", nominal.name, nominal.hash,
+                  nominal.simulated.empty() ? "" : " as " + nominal.simulated, trial.cells(),
+                  trial.marked ? "marked" : "no mark", trial.errors, grounds),
       draw, progress);
-  outcome.table += cell_table(read_campaign(options.summary, assist_kind()));
+  outcome.table += cell_table(read_campaign(options.summary, assist_kind()), trial);
   return outcome;
 }
 

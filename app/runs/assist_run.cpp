@@ -102,7 +102,7 @@ class AssistRun {
   AssistRun(const machines::SimulatedExcavator& machine, const AssistOptions& options)
       : options_(options),
         kinematics_(machine.profile.geometry),
-        way_(way_of(machine.profile, options.design)),
+        way_(way_of(machine.profile, options)),
         start_m_(kinematics_.strokes_from_pose(way_.at(0.5 * way_.length_m())).strokes_m),
         noise_(options.seed),
         rig_(machine,
@@ -210,7 +210,9 @@ class AssistRun {
     const ExcavatorStatus& status = rig_.ecu->outputs().status;
     const double at_m = out_m();
     // Off the line that is held; a cut is one of the design itself.
-    const double over_design_m = FenceTruth(plant).left_m(way_.fence);
+    const FenceTruth truth(plant);
+    const double over_design_m = way_.ground != nullptr ? truth.edge_over_m(way_.ground->height_m)
+                                                        : truth.left_m(way_.fence);
     const double off_m = over_design_m - rig_.setup.profile.assist.offset_m;
     const Eigen::Vector3d teeth_m = plant.teeth().position_m;
     const double speed_mps = (teeth_m - last_teeth_m_).norm() / kPeriod_s;

@@ -5,8 +5,12 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "app/machines/height_grid.hpp"
 #include "app/machines/simulated/simulated_excavator.hpp"
 #include "app/runs/campaign_run.hpp"
 #include "app/runs/figures.hpp"
@@ -28,10 +32,24 @@ inline constexpr std::array<const char*, 6> kLeverRecords = {"full",     "third"
 enum class AssistDesign : std::size_t { kFlat, kSlope };
 inline constexpr std::array<const char*, 2> kAssistDesigns = {"flat", "slope 1:2"};
 
+/// A ground that is no plane: what the controller has of it, and what it truly is.
+struct AssistGround {
+  std::string name;
+  std::shared_ptr<const machines::HeldSurface> surface;
+  /// At a place of the ground frame; not a number: it has none.
+  std::function<double(const Eigen::Vector2d&)> height_m;
+};
+
+/// Flat, a slope of 1:2 and a V ditch with sides of 1:2 across the way of this machine's edge, all
+/// as heights on a grid.
+[[nodiscard]] std::vector<std::shared_ptr<const AssistGround>> assist_grounds(
+    const ExcavatorProfile& profile);
+
 struct AssistOptions {
   LeverRecord record = LeverRecord::kFull;
   AssistDesign design = AssistDesign::kFlat;
-  bool marked = true;  ///< The edge was touched to a mark at the start.
+  std::shared_ptr<const AssistGround> ground;  ///< In the place of that design.
+  bool marked = true;                          ///< The edge was touched to a mark at the start.
   std::uint64_t seed = 1;
 };
 
@@ -67,12 +85,23 @@ struct AssistResult {
 
 [[nodiscard]] const CampaignKind& assist_kind();
 
+/// What a campaign tries.
+struct AssistTrial {
+  std::string errors;
+  bool marked = true;
+  /// In the place of the designs that are planes; none: these.
+  std::vector<std::shared_ptr<const AssistGround>> grounds;
+
+  [[nodiscard]] std::size_t designs() const {
+    return grounds.empty() ? kAssistDesigns.size() : grounds.size();
+  }
+  /// Records times designs.
+  [[nodiscard]] std::uint64_t cells() const { return kLeverRecords.size() * designs(); }
+};
+
 /// Every record on every design, then the next draw of each.
 [[nodiscard]] CampaignOutcome campaign_assist(const CampaignOptions& options,
                                               const machines::SimulatedExcavator& nominal,
-                                              const std::string& errors, bool marked,
-                                              const Progress& progress);
-/// Records times designs.
-[[nodiscard]] std::uint64_t assist_cells();
+                                              const AssistTrial& trial, const Progress& progress);
 
 }  // namespace graben::runs

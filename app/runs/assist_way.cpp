@@ -30,22 +30,53 @@ double left_at_ends_m(const ExcavatorGeometry& geometry, const StrokeResult& str
 
 }  // namespace
 
-Way way_of(const ExcavatorProfile& profile, AssistDesign design) {
+TipPose Way::at(double out_m) const {
+  Eigen::Vector2d place = near_m + out_m * along();
+  if (ground != nullptr) {
+    constexpr int kAcross = 12;
+    double most_m = -1e3;
+    for (int i = 0; i <= kAcross; ++i) {
+      const double left_m = half_edge_m * (2.0 * i / kAcross - 1.0);
+      most_m = std::max(most_m, ground->height_m({place.x() + foot_m.x(), left_m}));
+    }
+    place.y() = most_m - foot_m.y();
+  }
+  return {place.x(), place.y(), attitude_rad};
+}
+
+Eigen::Vector2d Way::tangent(double out_m) const {
+  constexpr double kBeside_m = 0.02;
+  const TipPose far = at(out_m + kBeside_m);
+  const TipPose near = at(out_m - kBeside_m);
+  return Eigen::Vector2d(far.x_m - near.x_m, far.y_m - near.y_m).normalized();
+}
+
+Way way_of(const ExcavatorProfile& profile, const AssistOptions& options) {
   const ExcavatorGeometry& geometry = profile.geometry;
   const ExcavatorKinematics kinematics(geometry);
   const double reach_m = geometry.boom_length_m + geometry.arm_length_m + geometry.bucket_length_m;
-  const double slope = design == AssistDesign::kSlope ? 0.5 : 0.0;
+  const double slope = options.design == AssistDesign::kSlope ? 0.5 : 0.0;
   const double middle_m = 0.5 * (kNear + kFar) * reach_m;
   const auto place = [&](double out_m) -> Eigen::Vector2d {
     return Eigen::Vector2d(out_m, -kDepth_m + slope * (out_m - middle_m) - slope) -
            geometry.boom_foot_m;
   };
-  Way way{place(kNear * reach_m), place(kFar * reach_m), 0.0, {}};
-  DesignPlane plane;
-  plane.up = Eigen::Vector3d(-slope, 0.0, 1.0).normalized();
-  const Eigen::Vector2d through = way.far_m + geometry.boom_foot_m;
-  plane.through_m = {through.x(), 0.0, through.y()};
-  way.fence = plane.fence();
+  Way way;
+  way.near_m = place(kNear * reach_m);
+  way.far_m = place(kFar * reach_m);
+  way.foot_m = geometry.boom_foot_m;
+  way.half_edge_m = 0.5 * geometry.body.bucket_width_m;
+  way.ground = options.ground;
+  if (way.ground != nullptr) {
+    way.far_m.y() = way.near_m.y();
+    way.fence = surface_fence(way.ground->surface->surface);
+  } else {
+    DesignPlane plane;
+    plane.up = Eigen::Vector3d(-slope, 0.0, 1.0).normalized();
+    const Eigen::Vector2d through = way.far_m + geometry.boom_foot_m;
+    plane.through_m = {through.x(), 0.0, through.y()};
+    way.fence = plane.fence();
+  }
   constexpr int kPlaces = 12;
   double best_m = 0.0;
   double best_rad = 0.0;
@@ -68,7 +99,8 @@ Way way_of(const ExcavatorProfile& profile, AssistDesign design) {
 
 double fastest_mps(const ExcavatorProfile& profile, const ExcavatorKinematics& kinematics,
                    const Way& way, double out_m, double lever) {
-  const Eigen::Vector2d along = way.along() * (lever > 0.0 ? -1.0 : 1.0);
+  const Eigen::Vector2d out = way.tangent(out_m);
+  const Eigen::Vector2d along = out * (lever > 0.0 ? -1.0 : 1.0);
   const PathMotion motion =
       kinematics.motion_from_pose(way.at(out_m), {along.x(), along.y(), 0.0}, {});
   const DriveLimits limits = drive_limits(profile);
@@ -91,7 +123,7 @@ double fastest_mps(const ExcavatorProfile& profile, const ExcavatorKinematics& k
     const double flow_m3ps = pump.displacement_m3prev / kTwoPi * pump.rated_speed_radps;
     most_mps = area_m2[j] > 0.0 ? std::min(most_mps, flow_m3ps / area_m2[j]) : most_mps;
   }
-  return most_mps;
+  return most_mps * out.dot(way.along());
 }
 
 }  // namespace graben::runs

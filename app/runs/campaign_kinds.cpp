@@ -205,7 +205,9 @@ CampaignOutcome campaign_autodig(const CampaignOptions& options,
     TaskScenario drawn = scenario;
     drawn.seed = seed;
     const machines::SimulatedExcavator machine = arranged(nominal, drawn);
-    const TaskProgram program = planned_task(drawn, machine.profile).result.program;
+    // Its program looks into its surface.
+    const machines::TaskFile task = planned_task(drawn, machine.profile);
+    const TaskProgram& program = task.result.program;
     const AutodigResult result =
         run_autodig(machine, program, usual_run(drawn, machine.profile, program), show_nothing);
     return campaign_row(static_cast<std::size_t>(result.end),

@@ -41,8 +41,38 @@ double to_box_m(const Fence& fence, const Eigen::Vector3d& at_m) {
   return outside_m(level_m, std::abs(off_m.z()) - fence.half_m.z());
 }
 
+/// Of a grid's surface, by its four heights round a place.
+double grid_height_m(const DesignSurface& of, const Eigen::Vector2d& at_m) {
+  const double turn_rad = std::atan2(of.sine, of.cosine);
+  const double cells_x =
+      (of.machine_m.x() + at_m.norm() * std::cos(std::atan2(at_m.y(), at_m.x()) + turn_rad)) /
+      of.step_m;
+  const double cells_y =
+      (of.machine_m.y() + at_m.norm() * std::sin(std::atan2(at_m.y(), at_m.x()) + turn_rad)) /
+      of.step_m;
+  double sum = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    const double column = std::floor(cells_x) + (k % 2);
+    const double row = std::floor(cells_y) + (k / 2);
+    if (!(column >= 0.0 && row >= 0.0 && column < of.columns && row < of.rows)) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    const std::int16_t height =
+        of.height[static_cast<int>(row) * of.columns + static_cast<int>(column)];
+    if (height == DesignSurface::kNone) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    const double share = (1.0 - std::abs(cells_x - column)) * (1.0 - std::abs(cells_y - row));
+    sum += share * height;
+  }
+  return of.base_m + DesignSurface::kUnit_m * sum;
+}
+
 double distance_m(const Fence& fence, const Eigen::Vector3d& at_m) {
   switch (fence.shape) {
+    case FenceShape::kSurface:
+      // By edge_over_m.
+      return std::numeric_limits<double>::quiet_NaN();
     case FenceShape::kBox:
       return to_box_m(fence, at_m);
     case FenceShape::kCylinder:
@@ -96,6 +126,10 @@ double FenceTruth::left_m(const Fence& fence) const {
       least_m = std::min(least_m, distance_m(fence, ball.at_m) - ball.radius_m);
     }
   };
+  if (fence.is_surface()) {
+    return edge_over_m(
+        [&](const Eigen::Vector2d& at_m) { return grid_height_m(*fence.surface, at_m); });
+  }
   if (fence.guard == FenceGuard::kTeeth) {
     look(edge_);
     return least_m;
@@ -103,6 +137,24 @@ double FenceTruth::left_m(const Fence& fence) const {
   look(links_);
   if (!stands_on(fence)) {
     look(tail_);
+  }
+  return least_m;
+}
+
+double FenceTruth::edge_over_m(
+    const std::function<double(const Eigen::Vector2d&)>& height_m) const {
+  constexpr double kBeside_m = 0.01;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Ball& ball : edge_) {
+    const Eigen::Vector2d at_m = ball.at_m.head<2>();
+    const double over_m = ball.at_m.z() - height_m(at_m);
+    const auto slope = [&](const Eigen::Vector2d& way_m) {
+      const double rise = (height_m(at_m + way_m) - height_m(at_m - way_m)) / (2.0 * kBeside_m);
+      return std::isnan(rise) ? 0.0 : rise;
+    };
+    const double steep = std::hypot(slope({kBeside_m, 0.0}), slope({0.0, kBeside_m}));
+    // Not a number leaves it.
+    least_m = std::fmin(least_m, over_m / std::hypot(1.0, steep));
   }
   return least_m;
 }

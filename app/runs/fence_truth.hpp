@@ -4,6 +4,7 @@
 /// the plant's joints. Shares no formula with the controller's fences.
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "app/plant/excavator_plant.hpp"
@@ -18,8 +19,14 @@ class FenceTruth {
   explicit FenceTruth(const plant::ExcavatorPlant& plant);
 
   /// Least distance of any point to the fence, m; negative: beyond it, or in it. Of a design
-  /// surface that of the edge. The counterweight counts before walls, boxes and cylinders.
+  /// surface that of the edge; of heights on a grid only where it has some, else infinite. The
+  /// counterweight counts before walls, boxes and cylinders.
   [[nodiscard]] double left_m(const Fence& fence) const;
+
+  /// Least distance of any point of the edge over heights of the ground frame, across them; not a
+  /// number counts as none there.
+  [[nodiscard]] double edge_over_m(
+      const std::function<double(const Eigen::Vector2d&)>& height_m) const;
 
  private:
   /// A ball of the outline.

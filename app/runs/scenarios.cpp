@@ -244,6 +244,7 @@ void refuse_idle_options(const TaskScenario& scenario, const TaskProgram& progra
 
 machines::TaskFile planned_task(const TaskScenario& scenario, const ExcavatorProfile& profile) {
   machines::TaskFile task = machines::load_task(machines::find_task(scenario.task), profile);
+  machines::demand_steps(task, "autodig");
   refuse_idle_options(scenario, task.result.program);
   if (!scenario.duration_s) {
     return task;

@@ -20,7 +20,7 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
   Memory& is = *memory_;
   const Cycle cycle = begin_cycle(is.cycle, memory_.unseal(), now_us);
   const ExcavatorValid valid =
-      read_inputs(machine_, sources_.book.count, inputs, cycle, now_us, is.last, is.inputs);
+      read_inputs(machine_, sources_.book.with_steps(), inputs, cycle, now_us, is.last, is.inputs);
   const Motion motion = next_motion(valid, cycle);
   const Followed followed =
       flow_limited(machine_, valid, is.estimates, motion, cycle.period_s, is.last);

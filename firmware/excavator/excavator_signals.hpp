@@ -145,11 +145,12 @@ struct JointAngles {
 
 /// What Task::kAssist does about its design; the numbers are on the bus.
 enum class AssistState : std::uint8_t {
-  kNone = 0,   ///< Another task, or there is no design.
-  kAway = 1,   ///< The edge is farther from it than assist.window.
-  kNear = 2,   ///< It will be held once the arm's lever moves.
-  kHolds = 3,  ///< Boom and bucket follow the arm.
-  kLetGo = 4,  ///< The boom's lever was raised, or the swing's moved: the arm's has to rest first.
+  kNone = 0,    ///< Another task, or there is no design.
+  kAway = 1,    ///< The edge is farther from it than assist.window.
+  kNear = 2,    ///< It will be held once the arm's lever moves.
+  kHolds = 3,   ///< Boom and bucket follow the arm.
+  kLetGo = 4,   ///< The boom's lever was raised, or the swing's moved: the arm's has to rest first.
+  kBeyond = 5,  ///< The edge is beyond the border of its design, of which nothing is known there.
 };
 
 /// Status of the excavator's controller.

@@ -33,7 +33,8 @@ static_assert(same_code(BusAssist::kAway, AssistState::kAway));
 static_assert(same_code(BusAssist::kNear, AssistState::kNear));
 static_assert(same_code(BusAssist::kHolds, AssistState::kHolds));
 static_assert(same_code(BusAssist::kLetGo, AssistState::kLetGo));
-static_assert(same_code(bus::EcuMotion::kAssist.raw_max, AssistState::kLetGo));
+static_assert(same_code(BusAssist::kBeyond, AssistState::kBeyond));
+static_assert(same_code(bus::EcuMotion::kAssist.raw_max, AssistState::kBeyond));
 
 void put_pressures(AxisInputs& axis, const dbc::Physical& cap, const dbc::Physical& rod,
                    TimeUs now) {

@@ -72,9 +72,10 @@ machines::SimulatedExcavator of_12t() {
 }
 
 TaskBook tasks_of_12t(const ExcavatorProfile& profile) {
-  return machines::load_tasks(
-      {machines::find_task("truck_by_steps").string(), machines::find_task("flatten").string()}, {},
-      profile);
+  return machines::load_tasks({machines::find_task("truck_by_steps").string(),
+                               machines::find_task("flatten").string()},
+                              {}, profile)
+      .book;
 }
 
 void write_excavator(const std::string& what) {

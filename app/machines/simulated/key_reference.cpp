@@ -192,7 +192,7 @@ std::string key_reference() {
   });
   const ExcavatorProfile machine = with_path().profile;
   add_file(text, "A task in steps, of an excavator",
-           [&](TomlReader& reader) { static_cast<void>(read_step_task(reader, machine)); });
+           [&](TomlReader& reader) { static_cast<void>(read_step_task(reader, machine, {})); });
   add_file(text, "A task that is an area",
            [&](TomlReader& reader) { static_cast<void>(read_area_task(reader, machine)); });
   return text;

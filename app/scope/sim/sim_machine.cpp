@@ -103,13 +103,14 @@ SimSite<SimExcavator> autodig_site(const SimOptions& options) {
     throw std::runtime_error(
         fmt::format("{}: the task autodig needs an excavator with a swing drive", machine->name));
   }
+  const machines::TaskFile task = machines::load_task(
+      machines::find_task(options.task_file.value_or("flatten")), machine->profile);
+  machines::demand_steps(task, "the task autodig");
   auto book = std::make_shared<TaskBook>();
-  book->program[0] = machines::load_task(machines::find_task(options.task_file.value_or("flatten")),
-                                         machine->profile)
-                         .result.program;
+  book->program[0] = task.result.program;
   book->count = 1;
   SimSite<SimExcavator> site;
-  site.make = [machine, book] {
+  site.make = [machine, book, surface = task.surface] {
     return std::make_unique<runs::AutodigRig>(*machine, *book, book->program[0].start, kFullSpeed);
   };
   site.is_done = [](const SimExcavator::Rig& nodes) {

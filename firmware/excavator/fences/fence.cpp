@@ -18,6 +18,9 @@ constexpr std::array<MachinePoint, kGapMost> kGuarded = {
     MachinePoint::kBoomFoot,  MachinePoint::kTailLeft,  MachinePoint::kTailRight};
 /// Corners of the bucket's edge in kGuarded. [-; size: left and right]
 constexpr int kEdgeCorners = 2;
+/// Places of the edge before a surface: its corners and its middle, over which a ridge may stand.
+/// [-; size: left, right and middle]
+constexpr int kEdgePlaces = 3;
 /// Corners of the counterweight in kGuarded. [-; size: left and right]
 constexpr int kTailCorners = 2;
 
@@ -39,13 +42,27 @@ double radius_m(const ExcavatorBody& body, MachinePoint point) {
   }
 }
 
+FenceGap surface_gap(const DesignSurface& surface, const MachineMotion& motion, int gap) {
+  FenceGap result;
+  result.point = gap < kEdgeCorners ? kGuarded[static_cast<unsigned>(gap)] : MachinePoint::kTeeth;
+  const PointMotion& point = motion.at(result.point);
+  const SurfacePlace under = surface.at(point.position_m.head<2>());
+  result.distance_m = kNoSurface_m;
+  if (under.known) {
+    const Eigen::Vector3d up = under.up();
+    result.distance_m = up.z() * (point.position_m.z() - under.height_m);
+    result.closing_mps = -up.dot(point.velocity_mps);
+  }
+  return result;
+}
+
 bool is_wall(const Fence& plane) { return std::abs(plane.normal.z()) < kWallUprightMost; }
 
 }  // namespace
 
 int gap_count(const Fence& fence, const ExcavatorBody& body) {
   if (fence.guard == FenceGuard::kTeeth) {
-    return kEdgeCorners;
+    return fence.is_surface() ? kEdgePlaces : kEdgeCorners;
   }
   const bool has_tail = body.counterweight.known();
   if (!fence.is_plane()) {
@@ -56,6 +73,9 @@ int gap_count(const Fence& fence, const ExcavatorBody& body) {
 
 FenceGap fence_gap(const Fence& fence, const ExcavatorBody& body, const MachineMotion& motion,
                    int gap, double far_m) {
+  if (fence.is_surface()) {
+    return surface_gap(*fence.surface, motion, gap);
+  }
   if (!fence.is_plane()) {
     return keep_out_gap(fence, body, motion, static_cast<MachinePart>(gap), far_m);
   }

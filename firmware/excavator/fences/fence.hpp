@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/fences/design_surface.hpp"
 #include "firmware/excavator/fences/machine_points.hpp"
 
 namespace graben {
@@ -21,10 +22,11 @@ enum class FenceShape : std::uint8_t {
   kPlane = 0,     ///< A half space is left to the machine.
   kBox = 1,       ///< Upright, turned about the vertical.
   kCylinder = 2,  ///< Upright.
+  kSurface = 3,   ///< Heights on a grid: what is over them is left to the teeth.
 };
 
 /// A half space that is left to the machine: normal . p <= offset; or a box or a cylinder that is
-/// kept out of.
+/// kept out of; or a design surface, which holds nothing beyond its border.
 struct Fence {
   /// Of length 1. Of a plane: out of what is left. Of a box: level, along its first side.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
@@ -35,7 +37,12 @@ struct Fence {
   /// Half of a box's sides, the last its height; the radius of a cylinder (both) and half its
   /// height.
   Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
+  /// Of kSurface; the owner's, who keeps it as long as anything has this fence. Aligned so that a
+  /// fence lies alike where pointers are of 4 bytes: a setup is written as bytes.
+  alignas(8) const DesignSurface* surface = nullptr;
 
+  [[nodiscard]] bool is_design() const { return guard == FenceGuard::kTeeth; }
+  [[nodiscard]] bool is_surface() const { return shape == FenceShape::kSurface; }
   [[nodiscard]] bool is_plane() const { return shape == FenceShape::kPlane; }
 };
 
@@ -65,16 +72,26 @@ struct FenceGap {
 inline constexpr int kGapMost = kMachinePointCount - 1;
 
 /// Gaps that have to be looked at between the machine and a fence, each by itself: of a plane those
-/// of its points, of a design those of the edge's corners, of a keep-out those of the machine's
-/// parts (keep_out.hpp).
+/// of its points, of a design those of the edge's corners, of a surface also that of its middle,
+/// of a keep-out those of the machine's parts (keep_out.hpp).
 [[nodiscard]] int gap_count(const Fence& fence, const ExcavatorBody& body);
 
-/// One of them, from 0. Exact for a plane; of a keep-out never more than the distance is, 0 where
-/// they touch, and whatever is beyond `far_m` may be told as that much.
+/// One of them, from 0. Exact for a plane; of a surface the distance to the plane that touches it
+/// under the point, kNoSurface_m where it has no height; of a keep-out never more than the distance
+/// is, 0 where they touch, and whatever is beyond `far_m` may be told as that much.
 [[nodiscard]] FenceGap fence_gap(const Fence& fence, const ExcavatorBody& body,
                                  const MachineMotion& motion, int gap, double far_m);
 
-/// A surface that is to be made: no digging below it.
+/// The fence of a surface.
+[[nodiscard]] inline Fence surface_fence(const DesignSurface& surface) {
+  Fence fence;
+  fence.guard = FenceGuard::kTeeth;
+  fence.shape = FenceShape::kSurface;
+  fence.surface = &surface;
+  return fence;
+}
+
+/// A plane that is to be made: no digging below it.
 struct DesignPlane {
   Eigen::Vector3d through_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Of length 1, out of the ground.

@@ -19,4 +19,21 @@ inline constexpr double kNoAxisSquared = 1e-12;
 /// too: an edge or a face is. [m; chosen: not tried]
 inline constexpr double kAsNearCorner_m = 1e-3;
 
+// Design surfaces (design_surface.cpp)
+
+/// Time for which a corner of the edge is followed ahead on a surface, as it moves now. [s; chosen:
+/// at 1 m/s and 1 m/s2 it takes 1 s to stop; not tried]
+inline constexpr double kSurfaceAhead_s = 1.0;
+/// Places on that way that are looked at. [-; size: 0.25 m apart at 1 m/s]
+inline constexpr int kSurfaceAheadSteps = 4;
+/// Depth by which what lies ahead counts as deeper than where the corner is. [m; chosen: sensors'
+/// noise and rounding of heights; not tried]
+inline constexpr double kSurfaceDeeper_m = 2e-3;
+/// Distance of what a surface says nothing of: it holds nothing there. [m; chosen: no machine
+/// reaches so far; not tried]
+inline constexpr double kNoSurface_m = 1e3;
+/// Error of the length of a surface's direction, which has to be 1. [-; chosen: rounding; not
+/// tried]
+inline constexpr double kSurfaceTurnOff = 1e-6;
+
 }  // namespace graben

@@ -70,12 +70,16 @@ ExcavatorValid validated_strokes(const ExcavatorModel& machine, const ExcavatorI
   return validate(profile, machine.drives, inputs, moving, now_us, state.accepted);
 }
 
-/// kTaskUnknown unless the task that the operator asks for is there.
-FaultSet task_faults(const ExcavatorValid& valid, int program_count) {
+/// Bits of the programs that there are. [-; size: of the word]
+constexpr int kProgramBits = 32;
+
+/// kTaskUnknown unless the task that the operator asks for is there, a program with steps.
+FaultSet task_faults(const ExcavatorValid& valid, std::uint32_t programs) {
   const bool known =
       valid.task == Task::kNone || is_by_field(valid.task) || is_by_lever(valid.task) ||
       valid.task == Task::kCommission ||
-      (valid.task == Task::kProgram && valid.task_number >= 0 && valid.task_number < program_count);
+      (valid.task == Task::kProgram && valid.task_number >= 0 && valid.task_number < kProgramBits &&
+       (programs >> static_cast<unsigned>(valid.task_number) & 1U) != 0);
   FaultSet faults;
   faults.add(known ? Fault::kNone : Fault::kTaskUnknown);
   return faults;
@@ -95,7 +99,7 @@ FaultSet lever_faults(const SafetyProfile& safety, const ExcavatorValid& valid, 
 
 }  // namespace
 
-ExcavatorValid read_inputs(const ExcavatorModel& machine, int program_count,
+ExcavatorValid read_inputs(const ExcavatorModel& machine, std::uint32_t programs,
                            const ExcavatorInputs& inputs, const Cycle& cycle, TimeUs now_us,
                            const LastCycle& last, InputState& state) {
   const DriveRows& drives = machine.drives;
@@ -105,7 +109,7 @@ ExcavatorValid read_inputs(const ExcavatorModel& machine, int program_count,
                 valid);
   watch(machine.profile, drives, last.commands, last.swash_ratio, cycle.elapsed_s, state.watch,
         valid);
-  stop(task_faults(valid, program_count), valid);
+  stop(task_faults(valid, programs), valid);
   stop(lever_faults(machine.profile.safety, valid, last.commands.moving, cycle.elapsed_s,
                     state.levers),
        valid);

@@ -31,9 +31,9 @@ struct InputState {
 };
 
 /// Strokes by their sensors, by IMUs or by measured joints, validated and watched against what the
-/// last cycle commanded; the task that is to be followed, of `program_count` programs and the
-/// others; the duties to try that may be sent.
-[[nodiscard]] ExcavatorValid read_inputs(const ExcavatorModel& machine, int program_count,
+/// last cycle commanded; the task that is to be followed, of the programs that have a
+/// bit in `programs`, from the lowest on, and the others; the duties to try that may be sent.
+[[nodiscard]] ExcavatorValid read_inputs(const ExcavatorModel& machine, std::uint32_t programs,
                                          const ExcavatorInputs& inputs, const Cycle& cycle,
                                          TimeUs now_us, const LastCycle& last, InputState& state);
 

@@ -72,6 +72,9 @@ class FencedMachine {
     for (int i = 0; i < count; ++i) {
       const FenceGap gap = fence_gap(fence, body(), motion, i, far_m);
       const double zero_m = fence.guard == FenceGuard::kTeeth ? zero_m_ : 0.0;
+      if (fence.is_surface()) {
+        slow_ahead(*fence.surface, motion.at(gap.point), zero_m, limit, cap);
+      }
       const double left_m = gap.distance_m - zero_m -
                             held_margin_m(profile_.fence, fence, motion, gap) + kFenceSlack_m;
       approach(profile_.control.stroke_end_gain_ps, profile_.line.acceleration_mps2, left_m,
@@ -80,6 +83,17 @@ class FencedMachine {
         beyond_[static_cast<unsigned>(beyond_count_ - 1)] = {static_cast<std::uint8_t>(number),
                                                              static_cast<std::uint8_t>(i)};
       }
+    }
+  }
+
+  /// Before what rises on the way of a point: under it there may be no more to see of that yet.
+  void slow_ahead(const DesignSurface& surface, const PointMotion& point, double zero_m,
+                  Limit limit, VelocityCap& cap) const {
+    const SurfaceContact contact = surface.ahead(point, zero_m);
+    if (contact.met) {
+      const double closing_mps = -contact.up.dot(point.velocity_mps);
+      approach(profile_.control.stroke_end_gain_ps, profile_.line.acceleration_mps2,
+               contact.time_s * closing_mps + kFenceSlack_m, closing_mps, limit, cap);
     }
   }
 

@@ -110,14 +110,20 @@ void follow(const Known& of, const TaskProgram& program, const MotionMemory& sta
 
 /// The chosen program's design, and by how much the last check at the mark has shown heights over
 /// it too high.
-void look_at_design(const Known& of, HandAsk& ask, Motion& motion) {
+void look_at_design(const Known& of, const HandState& hand, HandAsk& ask, Motion& motion) {
   const ExcavatorProfile& profile = of.machine.profile;
   const Eigen::Vector3d& off_m = of.last.mark.told.off_m;
   const Eigen::Vector2d shown_off_m(off_m.x(), off_m.z());
   const double swing_rad =
       profile.has_swing() ? of.estimates.servo.strokes_m()[kSwing] / profile.swing.lever_m : 0.0;
-  ask.design = assist_line(profile, *motion.fences, swing_rad, shown_off_m);
-  motion.zero_m = ask.design.up.dot(shown_off_m);
+  AssistView view;
+  view.now_m = of.estimates.pose.tip.x_m;
+  view.at_m = hand.plans ? hand.tip.x_m : view.now_m;
+  // Extending, the arm draws in.
+  const double arm = ask.lever_ratio[kArm];
+  view.way = arm > 0.0 ? -1.0 : arm < 0.0 ? 1.0 : 0.0;
+  ask.design = assist_design(profile, *motion.fences, swing_rad, shown_off_m, view);
+  motion.zero_m = ask.design.now.up.dot(shown_off_m);
 }
 
 /// By the levers.
@@ -130,7 +136,7 @@ void steer(const Known& of, const HandState& hand, Motion& motion) {
   motion.fences = &book.program[chosen ? static_cast<unsigned>(valid.task_number) : 0U].fences;
   HandAsk ask = hand_ask(valid);
   if (valid.task == Task::kAssist) {
-    look_at_design(of, ask, motion);
+    look_at_design(of, hand, ask, motion);
   }
   const double lambda = of.last.flow.lambda;
   motion.hand = want_by_hand(of.machine.profile, drives, of.machine.kinematics.planar(),
@@ -151,7 +157,7 @@ void steer(const Known& of, const HandState& hand, Motion& motion) {
     motion.task.planned_m = motion.hand.planned_m;
     correct_off_plan(of.machine, of.sources, of.estimates, lambda, valid.speed_override_ratio,
                      motion);
-    motion.path_error_m = std::abs(ask.design.height_m(of.estimates.pose.tip));
+    motion.path_error_m = std::abs(ask.design.now.height_m(of.estimates.pose.tip));
   }
 }
 

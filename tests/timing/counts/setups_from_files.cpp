@@ -20,7 +20,7 @@ ExcavatorSetup with_tasks() {
   const ExcavatorProfile profile =
       machines::load_excavator(machines::find_profile("excavator_12t")).profile;
   const std::filesystem::path folder = machines::find_task("flatten").parent_path();
-  return {profile, machines::load_tasks({"truck_by_steps", "flatten"}, {folder}, profile)};
+  return {profile, machines::load_tasks({"truck_by_steps", "flatten"}, {folder}, profile).book};
 }
 
 /// Down and up by turns, as steep as the 9 t machine still takes.

@@ -4,47 +4,15 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/excavator_steps.hpp"
 #include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/firmware/hand.hpp"
 
-constexpr double kPeriod_s = 0.01;
-constexpr TipPose kStart = {5.0, -0.5, 1.3};
+using test::Hand;
+
+constexpr double kPeriod_s = test::kHandPeriod_s;
+constexpr TipPose kStart = test::kHandStart;
 constexpr double kDrift_m = 2e-3;  ///< Of steps of 10 ms that nothing corrects.
 
 const ExcavatorProfile& profile() { return test::excavator().profile; }
-
-/// The machine does at once what is wanted, as far as `followed` lets it.
-struct Hand {
-  ExcavatorBank bank = excavator_bank(profile());
-  ExcavatorKinematics kinematics{profile().geometry};
-  ExcavatorServo servo;
-  HandState state;
-  HandAsk ask;
-  HandWant want;
-  Eigen::Vector3d strokes_m;
-  double followed = 1.0;
-
-  explicit Hand(Task task, const TipPose& tip = kStart) {
-    ask.task = task;
-    ask.speed_override_ratio = 1.0;
-    strokes_m = kinematics.strokes_from_pose(tip).strokes_m;
-    step();
-  }
-  [[nodiscard]] TipPose tip() const { return kinematics.state(strokes_m).tip; }
-  void step() {
-    for (int i = 0; i < kAxisCount; ++i) {
-      servo.drive[static_cast<unsigned>(i)].stroke_m = strokes_m[i];
-    }
-    want = want_by_hand(profile(), bank.rows(), kinematics, kinematics.state(strokes_m), servo, ask,
-                        state, kPeriod_s);
-    const Eigen::Vector3d wanted_mps = want.wanted_mps.head<kAxisCount>();
-    strokes_m += kPeriod_s * followed * wanted_mps;
-    state = next_by_hand(profile().line, want, ask, state, followed, kPeriod_s);
-  }
-  void run(double time_s) {
-    for (double at_s = 0.0; at_s < time_s; at_s += kPeriod_s) {
-      step();
-    }
-  }
-};
 
 TEST(at_rest_nothing_is_wanted) {
   for (const Task task : {Task::kJog, Task::kCoordinated}) {
@@ -228,10 +196,10 @@ FenceSet design(double under_m, double slope) {
 /// With the task's window of 0.3 m.
 struct Assisted : Hand {
   explicit Assisted(double under_m, double slope = 0.0) : Hand(Task::kAssist) {
-    ask.design = assist_line(profile(), design(under_m, slope), 0.0, Eigen::Vector2d::Zero());
+    ask.design = assist_design(profile(), design(under_m, slope), 0.0, Eigen::Vector2d::Zero(), {});
     step();
   }
-  [[nodiscard]] double height_m() const { return ask.design.height_m(tip()); }
+  [[nodiscard]] double height_m() const { return ask.design.now.height_m(tip()); }
 };
 
 /// Both ways, level and on a slope of 1:2, from 5 cm over it: onto it, never under it, as fast as
@@ -308,7 +276,7 @@ TEST(other_levers_keep_to_the_design) {
 TEST(away_from_a_design_drives_are_jogged) {
   Assisted away(0.31);
   Assisted none(0.0);
-  none.ask.design.known = false;
+  none.ask.design.present = false;
   Hand jog(Task::kJog);
   for (Hand* hand : {static_cast<Hand*>(&away), static_cast<Hand*>(&none), &jog}) {
     hand->ask.lever_ratio[kArm] = -0.5;
@@ -320,10 +288,10 @@ TEST(away_from_a_design_drives_are_jogged) {
   assert_int_equal(away.want.assist, AssistState::kAway);
   assert_int_equal(none.want.assist, AssistState::kNone);
   Assisted kept(0.29);
-  kept.ask.design.from_foot_m -= 0.05;
+  kept.ask.design.now.from_foot_m -= 0.05;
   kept.step();
   assert_int_equal(kept.want.assist, AssistState::kNear);
-  kept.ask.design.from_foot_m -= 0.05;
+  kept.ask.design.now.from_foot_m -= 0.05;
   kept.step();
   assert_int_equal(kept.want.assist, AssistState::kAway);
 }
@@ -337,10 +305,10 @@ TEST(the_line_is_that_of_the_lower_corner) {
   fences.fence[0].normal = -Eigen::Vector3d(0.0, 0.1, 1.0).normalized();
   fences.fence[0].offset_m = 0.0;
   const double half_m = 0.5 * wide.geometry.body.bucket_width_m;
-  const AssistLine line = assist_line(wide, fences, 0.0, {0.0, 0.02});
+  const AssistLine line = assist_design(wide, fences, 0.0, {0.0, 0.02}, {}).at;
   assert_near(line.from_foot_m, 0.1 * half_m + 0.1 + 0.02 - wide.geometry.boom_foot_m.y(), 1e-12);
   // Turned to the left it rises outwards.
-  const AssistLine left = assist_line(wide, fences, 0.5 * kPi, {0.0, 0.0});
+  const AssistLine left = assist_design(wide, fences, 0.5 * kPi, {0.0, 0.0}, {}).at;
   assert_near(left.along().y() / left.along().x(), -0.1, 1e-12);
-  assert_false(assist_line(wide, FenceSet{}, 0.0, {0.0, 0.0}).known);
+  assert_false(assist_design(wide, FenceSet{}, 0.0, {0.0, 0.0}, {}).present);
 }

@@ -6,6 +6,7 @@
 
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/drive_replay.hpp"
+#include "tests/unit/firmware/grid_ground.hpp"
 
 using test::kCycle_s;
 
@@ -255,6 +256,27 @@ TEST(a_design_lies_where_the_ground_was_felt, FenceSet fences) {
   assert_true(factor(0.0) > 0.0);
   assert_near(factor(0.01) / factor(0.0), (0.02 + 5e-5) / (0.03 + 5e-5), 5e-3);
   assert_true(factor(-0.01) > factor(0.0));
+}
+
+/// A swing over level ground towards a bank: it slows before the bank, though under the edge there
+/// is nothing to see of it yet; away from it, and over ground without a design, nothing does.
+TEST(a_surface_that_rises_ahead_is_slowed_for) {
+  const DriveVector at(0.475, 0.565, 0.4375, 0.0);
+  const Eigen::Vector3d teeth_m = machine().teeth(at).position_m;
+  const double half_m = 0.5 * machine().profile.geometry.body.bucket_width_m;
+  const test::GridGround bank(
+      [&](double, double y) { return teeth_m.z() - 0.1 + std::max(0.0, y - half_m - 0.4); });
+  const test::GridGround none([](double, double) { return std::nan(""); });
+  const ExcavatorBank rows = excavator_bank(machine().profile);
+  const auto cap = [&](const test::GridGround& ground, double side) {
+    return graben::motion_cap(machine().profile, rows.rows(), machine().kinematics, ground.fences(),
+                              travel_of(machine().profile, at),
+                              travel_of(machine().profile, {0.0, 0.0, 0.0, 0.25 * side}));
+  };
+  assert_true(cap(bank, 1.0).factor < 0.7);
+  assert_int_equal(cap(bank, 1.0).limit.kind, LimitKind::kFence);
+  assert_near(cap(bank, -1.0).factor, 1.0, 0.0);
+  assert_near(cap(none, 1.0).factor, 1.0, 0.0);
 }
 
 /// As many keep-outs as there may be, about the bucket: each part is looked at against each of

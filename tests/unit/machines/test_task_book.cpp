@@ -19,7 +19,7 @@ const std::filesystem::path& shipped() {
 }
 
 TaskBook book(const std::vector<std::string>& names) {
-  return machines::load_tasks(names, {"no_such_folder", shipped()}, profile());
+  return machines::load_tasks(names, {"no_such_folder", shipped()}, profile()).book;
 }
 
 std::string errors_of(const std::vector<std::string>& names) {

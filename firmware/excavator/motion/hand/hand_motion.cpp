@@ -89,11 +89,15 @@ HandSpeed target_of(const HandRange& range, bool leads, const HandAsk& ask, bool
 
 AssistState assist_of(const AssistProfile& assist, const HandAsk& ask, const KinematicState& now,
                       const HandState& state) {
-  if (ask.task != Task::kAssist || !ask.design.known) {
+  if (ask.task != Task::kAssist || !ask.design.present) {
     return AssistState::kNone;
   }
-  const double most_m = assist.window_m * (state.assist > AssistState::kAway ? kAssistKeeps : 1.0);
-  if (now.status != ReachStatus::kOk || !(std::abs(ask.design.height_m(now.tip)) <= most_m)) {
+  if (ask.design.beyond()) {
+    return AssistState::kBeyond;
+  }
+  const bool was_near = state.assist > AssistState::kAway && state.assist < AssistState::kBeyond;
+  const double most_m = assist.window_m * (was_near ? kAssistKeeps : 1.0);
+  if (now.status != ReachStatus::kOk || !(std::abs(ask.design.now.height_m(now.tip)) <= most_m)) {
     return AssistState::kAway;
   }
   const HandSpeed levers = levers_of(ask, state.released);
@@ -108,16 +112,21 @@ AssistState assist_of(const AssistProfile& assist, const HandAsk& ask, const Kin
 /// Along the design as fast as the arm's lever alone moves the arm, and onto it the faster, the
 /// farther off the edge still is. `tip` is where it will be.
 HandSpeed along_design(const HandRange& range, const HandAsk& ask, const KinematicState& now,
-                       const TipPose& tip, bool released) {
+                       const TipPose& tip, bool released, VelocityCap& cap) {
   const HandSpeed levers = ask.speed_override_ratio * levers_of(ask, released);
-  const Eigen::Vector2d along = ask.design.along();
+  const AssistLine& design = ask.design.at;
+  const Eigen::Vector2d along = design.along();
   const double arm = now.jacobian_inverse.row(kArm).head<2>().dot(along);
   // Extending, the arm draws in.
-  const double speed_mps =
+  double speed_mps =
       -levers[kArm] * range.arm_mps / std::max(std::abs(arm), range.arm_mps / range.most[kForward]);
+  VelocityCap ahead;
+  ahead.tighten(std::abs(speed_mps), ask.design.ahead.speed_mps, ask.design.ahead.limit);
+  speed_mps *= ahead.factor;
+  cap.limit = ahead.limit;
   const double off =
-      std::clamp(ask.design.height_m(tip) / kAssistOnto_m, -kAssistSteepest, kAssistSteepest);
-  const Eigen::Vector2d tip_mps = speed_mps * along - std::abs(speed_mps) * off * ask.design.up;
+      std::clamp(design.height_m(tip) / kAssistOnto_m, -kAssistSteepest, kAssistSteepest);
+  const Eigen::Vector2d tip_mps = speed_mps * along - std::abs(speed_mps) * off * design.up;
   HandSpeed target = HandSpeed::Zero();
   target.head<3>() << tip_mps.y(), tip_mps.x(), -levers[kBucket] * range.most[kAttitude];
   return target;
@@ -218,27 +227,6 @@ void lead_teeth(DriveRows drives, const ExcavatorKinematics& kinematics, const K
 
 }  // namespace
 
-AssistLine assist_line(const ExcavatorProfile& profile, const FenceSet& fences, double swing_rad,
-                       const Eigen::Vector2d& shown_off_m) {
-  AssistLine line;
-  const Fence& last = fences.fence[fences.count > 0 ? static_cast<unsigned>(fences.count - 1) : 0U];
-  line.known = fences.count > 0 && last.guard == FenceGuard::kTeeth;
-  if (!line.known) {
-    return line;
-  }
-  const double cosine = std::cos(swing_rad);
-  const double sine = std::sin(swing_rad);
-  // The fence looks into the ground.
-  const Eigen::Vector2d up(-last.normal.x() * cosine - last.normal.y() * sine, -last.normal.z());
-  const double across = last.normal.x() * sine - last.normal.y() * cosine;
-  const double corner_m = 0.5 * profile.geometry.body.bucket_width_m * std::abs(across);
-  const double length = up.norm();
-  line.up = up / length;
-  line.from_foot_m = (corner_m - last.offset_m) / length + profile.assist.offset_m +
-                     line.up.dot(shown_off_m - profile.geometry.boom_foot_m);
-  return line;
-}
-
 HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
                       const ExcavatorKinematics& kinematics, const KinematicState& now,
                       const ExcavatorServo& servo, const HandAsk& ask, const HandState& state,
@@ -250,9 +238,10 @@ HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
   HandRange range = hand_range(profile, want.leads, assists);
   // Teeth that begin or end to be led do so from rest: boom up counts at once.
   const HandSpeed last = state.leads == want.leads ? state.speed : HandSpeed(HandSpeed::Zero());
-  const HandSpeed target =
-      assists ? along_design(range, ask, now, state.plans ? state.tip : now.tip, state.released)
-              : target_of(range, want.leads, ask, state.released);
+  const HandSpeed target = assists
+                               ? along_design(range, ask, now, state.plans ? state.tip : now.tip,
+                                              state.released, want.cap)
+                               : target_of(range, want.leads, ask, state.released);
   if (assists) {
     range.change_ps[kUp] = target.head<2>().isZero(0.0)
                                ? kAssistStops_mps2
@@ -264,7 +253,7 @@ HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
     want.speed = with_swing(want.speed, 0.0);
   }
   if (want.leads) {
-    lead_teeth(drives, kinematics, now, servo, ask.design, state, want);
+    lead_teeth(drives, kinematics, now, servo, ask.design.at, state, want);
   } else {
     slow_each(drives, strokes_then_m(drives, servo), want);
     want.moves = !want.wanted_mps.isZero(0.0);

@@ -7,34 +7,13 @@
 
 #include "firmware/drives/velocity_cap.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
-#include "firmware/excavator/fences/fence.hpp"
-#include "firmware/excavator/kinematics/excavator_kinematics.hpp"
-#include "firmware/excavator/motion/hand/tuning.hpp"
+#include "firmware/excavator/motion/hand/assist_line.hpp"
 
 namespace graben {
 
 /// What the levers ask for, softly started and stopped: speeds of the drives, m/s, or, where the
 /// teeth are led, theirs up and forward, m/s, of the attitude, rad/s, of the swing, m/s.
 using HandSpeed = DriveVector;
-
-/// The design under the bucket in the plane of the boom: x outwards, y up, from the boom foot's
-/// pin. With the edge's middle on that line none of its corners is under the design.
-struct AssistLine {
-  bool known = false;                             ///< There is a design.
-  Eigen::Vector2d up = Eigen::Vector2d::UnitY();  ///< Of length 1, out of the ground.
-  double from_foot_m = 0.0;                       ///< Of the pin to the line, along `up`.
-
-  [[nodiscard]] double height_m(const TipPose& tip) const {
-    return up.x() * tip.x_m + up.y() * tip.y_m - from_foot_m;
-  }
-  /// Outwards, along the surface.
-  [[nodiscard]] Eigen::Vector2d along() const { return {up.y(), -up.x()}; }
-};
-
-/// The design is the last of a program's fences. `shown_off_m`: the edge is shown so much too far
-/// outwards and up. The line lies assist.offset over the design.
-[[nodiscard]] AssistLine assist_line(const ExcavatorProfile& profile, const FenceSet& fences,
-                                     double swing_rad, const Eigen::Vector2d& shown_off_m);
 
 /// State from cycle to cycle.
 struct HandState {
@@ -55,7 +34,7 @@ struct HandAsk {
   std::array<double, kDriveCount> lever_ratio{};
   double speed_override_ratio = 0.0;
   double most_ratio = 1.0;  ///< That somebody outside leaves; it counts at once.
-  AssistLine design{};      ///< Of Assist.
+  AssistDesign design{};    ///< Of Assist.
 };
 
 /// Wanted motion of the drives now.
@@ -81,8 +60,10 @@ struct HandWant {
 ///
 /// Assist: within assist.window of the design the arm's lever draws the edge along it as fast as
 /// that lever alone would move the arm, the attitude as it was, or turned by the bucket's lever;
-/// the boom's downwards does nothing. Upwards it ends that at once, as the swing's does, until the
-/// arm's has come to rest. Elsewhere, and without the arm's lever, each drive goes by its own.
+/// the boom's downwards does nothing. Before a kink of a surface it is slowed, so that the edge
+/// does not leave it there, and before the surface's border stopped. Upwards it ends that at once,
+/// as the swing's does, until the arm's has come to rest. Elsewhere, and without the arm's lever,
+/// each drive goes by its own.
 [[nodiscard]] HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
                                     const ExcavatorKinematics& kinematics,
                                     const KinematicState& now, const ExcavatorServo& servo,

@@ -42,5 +42,19 @@ inline constexpr double kAssistPace_ps = 3.0;
 /// measured: `campaign assist`: at 0.03 it held corrections back, and the boom swung by 0.1 m
 /// at 2.4 Hz; at 1 the deepest cut was 97 mm instead of 55]
 inline constexpr double kAssistFence_m = 0.3;
+/// Way along a surface before and behind a place over which its slope is taken there: half of what
+/// a kink is rounded over. [m; chosen: as design.rounding's own value; not tried]
+inline constexpr double kAssistKink_m = 0.05;
+/// Places of a surface that are looked at ahead, kAssistKink_m twice apart. [-; size: the way to
+/// rest from some 1.3 m/s]
+inline constexpr int kAssistAheadSteps = 10;
+/// Deceleration before a kink or the border. [m/s2; chosen: as that of a line; not tried]
+inline constexpr double kAssistBrakes_mps2 = 1.0;
+/// Acceleration across the design with which the edge is led round a kink. [m/s2; chosen: not
+/// tried]
+inline constexpr double kAssistTurns_mps2 = 1.0;
+/// Turn of the design below which it has no kink. [rad; chosen: above what heights are
+/// rounded by; not tried]
+inline constexpr double kAssistStraight_rad = 0.02;
 
 }  // namespace graben

@@ -23,6 +23,9 @@ bool usable(const Fence& fence) {
   if (!unit(fence.normal) || !std::isfinite(fence.offset_m)) {
     return false;
   }
+  if (fence.is_surface()) {
+    return fence.guard == FenceGuard::kTeeth && fence.surface != nullptr && fence.surface->usable();
+  }
   return fence.is_plane() || (fence.guard == FenceGuard::kMachine && fence.centre_m.allFinite() &&
                               fence.half_m.allFinite() && fence.half_m.minCoeff() > 0.0 &&
                               (fence.shape == FenceShape::kCylinder || fence.normal.z() == 0.0));

@@ -104,6 +104,17 @@ struct TaskProgram {
 struct TaskBook {
   std::array<TaskProgram, kTaskMost> program;
   int count = 0;
+
+  /// A bit each, the first one the lowest: those with steps. The others only have fences and a
+  /// design, for what moves by the levers.
+  [[nodiscard]] std::uint32_t with_steps() const {
+    std::uint32_t bits = 0;
+    for (unsigned i = 0; i < kTaskMost; ++i) {
+      const bool has = static_cast<int>(i) < count && program[i].step_count > 0;
+      bits |= has ? 1U << i : 0U;
+    }
+    return bits;
+  }
 };
 static_assert(sizeof(TaskBook) < 32 * 1024, "a controller's memory holds it beside all else");
 
