@@ -6,54 +6,75 @@
 
 namespace graben {
 
-SurfacePlace DesignSurface::at(const Eigen::Vector2d& place_m) const {
+bool DesignSurface::cell_at(double x_m, double y_m, Cell& cell) const {
   const double per_m = 1.0 / step_m;
-  const double along = per_m * (machine_m.x() + cosine * place_m.x() - sine * place_m.y());
-  const double across = per_m * (machine_m.y() + sine * place_m.x() + cosine * place_m.y());
-  SurfacePlace result;
+  cell.u = per_m * (machine_m.x() + cosine * x_m - sine * y_m);
+  cell.v = per_m * (machine_m.y() + sine * x_m + cosine * y_m);
   // Written so that what is not a number is beyond the border.
-  if (!(along >= 0.0 && across >= 0.0 && along < columns - 1 && across < rows - 1)) {
-    return result;
+  if (!(cell.u >= 0.0 && cell.v >= 0.0 && cell.u < columns - 1 && cell.v < rows - 1)) {
+    return false;
   }
-  const int column = static_cast<int>(along);
-  const int row = static_cast<int>(across);
+  const int column = static_cast<int>(cell.u);
+  const int row = static_cast<int>(cell.v);
   const std::int16_t* const near = height + row * columns + column;
-  const std::int16_t* const far = near + columns;
-  if (near[0] == kNone || near[1] == kNone || far[0] == kNone || far[1] == kNone) {
-    return result;
+  cell.near = near[0];
+  cell.near_next = near[1];
+  cell.far = near[columns];
+  cell.far_next = near[columns + 1];
+  cell.u -= column;
+  cell.v -= row;
+  return cell.near != kNone && cell.near_next != kNone && cell.far != kNone &&
+         cell.far_next != kNone;
+}
+
+bool DesignSurface::height_at(double x_m, double y_m, double& height_m) const {
+  Cell cell;
+  if (!cell_at(x_m, y_m, cell)) {
+    return false;
   }
-  const double u = along - column;
-  const double v = across - row;
-  const double rise_near = near[1] - near[0];
-  const double rise_far = far[1] - far[0];
-  const double on_near = near[0] + u * rise_near;
-  const double on_far = far[0] + u * rise_far;
-  const double slope_along = kUnit_m * per_m * (rise_near + v * (rise_far - rise_near));
-  const double slope_across = kUnit_m * per_m * (on_far - on_near);
-  result.known = true;
-  result.height_m = base_m + kUnit_m * (on_near + v * (on_far - on_near));
-  result.slope = {cosine * slope_along + sine * slope_across,
-                  cosine * slope_across - sine * slope_along};
+  height_m = base_m + kUnit_m * cell.height();
+  return true;
+}
+
+SurfacePlace DesignSurface::at(const Eigen::Vector2d& place_m) const {
+  SurfacePlace result;
+  Cell cell;
+  result.known = cell_at(place_m.x(), place_m.y(), cell);
+  if (result.known) {
+    result.height_m = base_m + kUnit_m * cell.height();
+    const int rise_near = cell.near_next - cell.near;
+    const int rise_far = cell.far_next - cell.far;
+    const int twist = rise_far - rise_near;
+    const double along = kUnit_m / step_m * (rise_near + cell.v * twist);
+    const double across = kUnit_m / step_m * (cell.far - cell.near + cell.u * twist);
+    result.slope = {cosine * along + sine * across, cosine * across - sine * along};
+  }
   return result;
 }
 
 SurfaceContact DesignSurface::ahead(const PointMotion& point, double zero_m) const {
   SurfaceContact contact;
-  double before_m = 0.0;
-  double free_m = 0.0;
-  for (int i = 0; i <= kSurfaceAheadSteps; ++i) {
-    const double time_s = kSurfaceAhead_s * i / kSurfaceAheadSteps;
-    const Eigen::Vector3d then_m = point.position_m + time_s * point.velocity_mps;
-    const SurfacePlace place = at(then_m.head<2>());
-    if (!place.known) {
+  const double step_s = kSurfaceAhead_s / kSurfaceAheadSteps;
+  const double x_m = point.position_m.x();
+  const double y_m = point.position_m.y();
+  const double z_m = point.position_m.z() - zero_m;
+  double height_m = 0.0;
+  if (!height_at(x_m, y_m, height_m)) {
+    return contact;
+  }
+  double before_m = z_m - height_m;
+  const double free_m = std::min(0.0, before_m) - kSurfaceDeeper_m;
+  for (int i = 1; i <= kSurfaceAheadSteps; ++i) {
+    const double time_s = step_s * i;
+    const double then_x_m = x_m + time_s * point.velocity_mps.x();
+    const double then_y_m = y_m + time_s * point.velocity_mps.y();
+    if (!height_at(then_x_m, then_y_m, height_m)) {
       return contact;
     }
-    const double over_m = then_m.z() - zero_m - place.height_m;
-    if (i == 0) {
-      free_m = std::min(0.0, over_m) - kSurfaceDeeper_m;
-    } else if (over_m < free_m) {
+    const double over_m = z_m + time_s * point.velocity_mps.z() - height_m;
+    if (over_m < free_m) {
       const double share = (before_m - free_m) / (before_m - over_m);
-      contact = {true, time_s - (1.0 - share) * kSurfaceAhead_s / kSurfaceAheadSteps, place.up()};
+      contact = {true, time_s - (1.0 - share) * step_s, at({then_x_m, then_y_m}).up()};
       return contact;
     }
     before_m = over_m;

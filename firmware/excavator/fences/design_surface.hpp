@@ -51,6 +51,9 @@ struct DesignSurface {
   double cosine = 1.0;
   double sine = 0.0;
 
+  /// Height alone at a place of the ground frame; false: there is none, and it stays as it was.
+  [[nodiscard]] bool height_at(double x_m, double y_m, double& height_m) const;
+
   /// At a place of the ground frame: between its cell's four corners, bilinear.
   [[nodiscard]] SurfacePlace at(const Eigen::Vector2d& place_m) const;
 
@@ -60,6 +63,23 @@ struct DesignSurface {
 
   /// Its numbers can be those of a surface.
   [[nodiscard]] bool usable() const;
+
+ private:
+  /// Four heights round a place, in counts, and where it is between them.
+  struct Cell {
+    int near;
+    int near_next;
+    int far;
+    int far_next;
+    double u;
+    double v;
+
+    [[nodiscard]] double height() const {
+      const double on_near = near + u * (near_next - near);
+      return on_near + v * (far + u * (far_next - far) - on_near);
+    }
+  };
+  [[nodiscard]] bool cell_at(double x_m, double y_m, Cell& cell) const;
 };
 
 }  // namespace graben

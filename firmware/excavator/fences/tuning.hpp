@@ -24,8 +24,8 @@ inline constexpr double kAsNearCorner_m = 1e-3;
 /// Time for which a corner of the edge is followed ahead on a surface, as it moves now. [s; chosen:
 /// at 1 m/s and 1 m/s2 it takes 1 s to stop; not tried]
 inline constexpr double kSurfaceAhead_s = 1.0;
-/// Places on that way that are looked at. [-; size: 0.25 m apart at 1 m/s]
-inline constexpr int kSurfaceAheadSteps = 4;
+/// Places on that way that are looked at. [-; size: 0.33 m apart at 1 m/s]
+inline constexpr int kSurfaceAheadSteps = 3;
 /// Depth by which what lies ahead counts as deeper than where the corner is. [m; chosen: sensors'
 /// noise and rounding of heights; not tried]
 inline constexpr double kSurfaceDeeper_m = 2e-3;

@@ -72,7 +72,7 @@ class FencedMachine {
     for (int i = 0; i < count; ++i) {
       const FenceGap gap = fence_gap(fence, body(), motion, i, far_m);
       const double zero_m = fence.guard == FenceGuard::kTeeth ? zero_m_ : 0.0;
-      if (fence.is_surface()) {
+      if (fence.is_surface() && gap.point != MachinePoint::kTeeth) {
         slow_ahead(*fence.surface, motion.at(gap.point), zero_m, limit, cap);
       }
       const double left_m = gap.distance_m - zero_m -

@@ -47,10 +47,10 @@ TEST(crests_and_hollows_are_followed) {
     const test::GridGround ground([&](double x, double) { return height_m(x); });
     OnSurface hand(ground);
     double most_mps = 0.0;
-    for (const double side : {1.0, -1.0, 1.0}) {
+    for (const double side : {1.0, -1.0}) {
       hand.ask.lever_ratio[kArm] = side;
       bool slowed = false;
-      for (int n = 0; n < (side > 0.0 ? 180 : 320); ++n) {
+      for (int n = 0; n < (side > 0.0 ? 180 : 450); ++n) {
         hand.look();
         assert_int_equal(hand.want.assist, AssistState::kHolds);
         const TipPose tip = hand.tip();

@@ -47,7 +47,8 @@ TEST(what_rises_ahead_is_met_in_time) {
   point.velocity_mps = {1.0, 0.0, 0.0};
   const SurfaceContact contact = ground.surface.ahead(point, 0.0);
   assert_true(contact.met);
-  assert_near(contact.time_s, 0.5, 0.03);
+  // Between two places that are looked at it is taken to rise evenly: never too late.
+  assert_true(contact.time_s > 0.3 && contact.time_s < 0.51);
   assert_near(contact.up.x(), -std::sqrt(0.5), 0.01);
   point.velocity_mps.x() = -1.0;
   assert_false(ground.surface.ahead(point, 0.0).met);
@@ -58,7 +59,8 @@ TEST(what_rises_ahead_is_met_in_time) {
   assert_near(ground.surface.ahead(point, -0.3).time_s, 0.8, 0.03);
   // Beyond the surface already: where it gets deeper.
   point.position_m.z() = -0.1;
-  assert_near(ground.surface.ahead(point, 0.0).time_s, 0.5, 0.03);
+  const double deeper_s = ground.surface.ahead(point, 0.0).time_s;
+  assert_true(deeper_s > 0.3 && deeper_s < 0.51);
 }
 
 /// Corners and middle of the edge, each over the plane that touches the surface under it; a ridge

@@ -43,22 +43,23 @@ class Section {
         offset_m_(profile.assist.offset_m),
         pin_m_(profile.geometry.boom_foot_m - shown_off_m) {}
 
-  /// As high as the highest that is under the edge.
-  [[nodiscard]] SectionPlace place(double x_m) const {
-    SectionPlace result;
+  /// As high as the highest that is under the edge; for what lies ahead its corners are enough.
+  [[nodiscard]] SectionPlace place(double x_m, int step = 1) const {
+    const double out_m = x_m + pin_m_.x();
     double most_m = -kNoSurface_m;
-    for (int i = 0; i < kAcrossEdge; ++i) {
+    for (int i = 0; i < kAcrossEdge; i += step) {
       const double left_m = half_m_ * (i - 1);
-      const double out_m = x_m + pin_m_.x();
-      const SurfacePlace under = surface_.at({out_m * outwards_.x() - left_m * outwards_.y(),
-                                              out_m * outwards_.y() + left_m * outwards_.x()});
-      if (!under.known) {
-        return result;
+      double height_m = 0.0;
+      if (!surface_.height_at(out_m * outwards_.x() - left_m * outwards_.y(),
+                              out_m * outwards_.y() + left_m * outwards_.x(), height_m)) {
+        return {};
       }
-      most_m = std::max(most_m, under.height_m);
+      most_m = std::max(most_m, height_m);
     }
     return {true, most_m - pin_m_.y()};
   }
+
+  [[nodiscard]] SectionPlace corners(double x_m) const { return place(x_m, kAcrossEdge - 1); }
 
   [[nodiscard]] AssistLine line(double x_m) const {
     AssistLine line;
@@ -73,22 +74,33 @@ class Section {
     return line;
   }
 
+  /// The same where the edge is measured: its height at once, its slope from where it is planned.
+  [[nodiscard]] AssistLine line(double x_m, const AssistLine& planned) const {
+    AssistLine line = planned;
+    const SectionPlace here = place(x_m);
+    line.known = here.known && planned.known;
+    line.from_foot_m = line.up.dot(Eigen::Vector2d(x_m, here.y_m)) + offset_m_;
+    return line;
+  }
+
   /// Slow enough before every kink that the edge can follow it, and to rest before the border.
   void look_ahead(double x_m, double way, Limit why, SpeedCap& cap) const {
     const double step_m = 2.0 * kAssistKink_m;
-    SectionPlace before = place(x_m - way * step_m);
-    SectionPlace here = place(x_m);
+    const SectionPlace before = corners(x_m - way * step_m);
+    SectionPlace here = corners(x_m);
     double slope = way * (here.y_m - before.y_m) / step_m;
     double last_turn = 0.0;
     for (int i = 0; i < kAssistAheadSteps; ++i) {
-      const SectionPlace next = place(x_m + way * step_m * (i + 1));
+      const SectionPlace next = corners(x_m + way * step_m * (i + 1));
       const double from_m = step_m * std::max(0, i - 1);
       if (!next.known) {
         cap.tighten(std::sqrt(2.0 * kAssistBrakes_mps2 * from_m), why);
         return;
       }
       const double next_slope = way * (next.y_m - here.y_m) / step_m;
-      const double turn = std::abs(std::atan2(next_slope, 1.0) - std::atan2(slope, 1.0));
+      // The angle's tangent: never less than the angle.
+      const double turn =
+          std::abs(next_slope - slope) / std::max(kAssistSteepKink, 1.0 + next_slope * slope);
       // A kink may lie across two steps.
       const double kink = turn + last_turn;
       if (kink > kAssistStraight_rad) {
@@ -126,8 +138,8 @@ AssistDesign assist_design(const ExcavatorProfile& profile, const FenceSet& fenc
     return design;
   }
   const Section section(profile, *fence.surface, swing_rad, shown_off_m);
-  design.now = section.line(view.now_m);
   design.at = section.line(view.at_m);
+  design.now = view.now_m == view.at_m ? design.at : section.line(view.now_m, design.at);
   if (design.at.known && view.way != 0.0) {
     section.look_ahead(view.at_m, view.way, {LimitKind::kAhead, 0}, design.ahead);
   }

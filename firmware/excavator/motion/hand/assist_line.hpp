@@ -44,7 +44,7 @@ struct AssistView {
 
 /// The design is the last of a program's fences. `shown_off_m`: the edge is shown so much too far
 /// outwards and up. The lines lie assist.offset over the design. Of a surface a line's slope is
-/// that between kAssistKink_m before and behind it.
+/// that between kAssistKink_m before and behind where the edge is planned.
 [[nodiscard]] AssistDesign assist_design(const ExcavatorProfile& profile, const FenceSet& fences,
                                          double swing_rad, const Eigen::Vector2d& shown_off_m,
                                          const AssistView& view);

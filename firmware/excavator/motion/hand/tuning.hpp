@@ -46,13 +46,16 @@ inline constexpr double kAssistFence_m = 0.3;
 /// a kink is rounded over. [m; chosen: as design.rounding's own value; not tried]
 inline constexpr double kAssistKink_m = 0.05;
 /// Places of a surface that are looked at ahead, kAssistKink_m twice apart. [-; size: the way to
-/// rest from some 1.3 m/s]
-inline constexpr int kAssistAheadSteps = 10;
+/// rest from some 1.2 m/s]
+inline constexpr int kAssistAheadSteps = 8;
 /// Deceleration before a kink or the border. [m/s2; chosen: as that of a line; not tried]
 inline constexpr double kAssistBrakes_mps2 = 1.0;
 /// Acceleration across the design with which the edge is led round a kink. [m/s2; chosen: not
 /// tried]
 inline constexpr double kAssistTurns_mps2 = 1.0;
+/// Least share by which a turn's tangent is divided: from about 84 deg on it is as sharp as that.
+/// [-; chosen: not tried]
+inline constexpr double kAssistSteepKink = 0.1;
 /// Turn of the design below which it has no kink. [rad; chosen: above what heights are
 /// rounded by; not tried]
 inline constexpr double kAssistStraight_rad = 0.02;
