@@ -36,6 +36,9 @@ TEST(beyond_its_border_it_has_no_height) {
     assert_false(ground.surface.at(at_m).known);
   }
   assert_true(ground.surface.at({-11.99, 0.0}).known);
+  const test::GridGround across([](double, double y) { return y < 6.0 ? 0.0 : kNothing; }, 0.0);
+  assert_true(across.surface.at({0.0, 5.9}).known);
+  assert_false(across.surface.at({0.0, 5.98}).known);
 }
 
 /// A wall of 1:1 from x = 5 on is met on the way to it, and from the ground that leads to it; from

@@ -115,6 +115,12 @@ TEST(an_unknown_number_is_refused) {
   assert_neutral(running.step());
   assert_int_equal(running.outputs.status.mode, EcuMode::kFault);
   assert_int_equal(running.outputs.status.fault, Fault::kTaskUnknown);
+  // One that has fences alone, for the levers, has no steps to be done.
+  TaskBook book = test::book_of({dig()});
+  book.program[0].step_count = 0;
+  TaskMachine without_steps(book, beside());
+  assert_neutral(without_steps.step());
+  assert_true(without_steps.outputs.status.faults.has(Fault::kTaskUnknown));
   // A number that is not there is none of ours either.
   TaskMachine mute = on_the_line();
   ExcavatorInputs inputs = mute.inputs();
