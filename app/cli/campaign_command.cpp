@@ -164,8 +164,15 @@ runs::CampaignOutcome campaign_designs(const GradeCampaign& options,
 runs::CampaignOutcome campaign_identify(const IdentifyCampaign& options,
                                         const runs::CampaignOptions& campaign,
                                         const runs::Progress& progress) {
-  const machines::SimulatedExcavator nominal =
-      machines::load_simulated_excavator(machines::find_profile(options.profile));
+  const auto file = machines::find_profile(options.profile);
+  if (machines::profile_kind(file) == machines::MachineKind::kDozer) {
+    if (options.as_designed || options.speed_override_ratio != 1.0) {
+      throw std::runtime_error("--as-designed and --speed are of excavators: a dozer is hidden, and "
+                               "grades at its own speed");
+    }
+    return runs::campaign_identify_dozer(campaign, machines::load_simulated_dozer(file), progress);
+  }
+  const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(file);
   return runs::campaign_identify(campaign, nominal, options.as_designed,
                                  options.speed_override_ratio, progress);
 }
@@ -267,7 +274,7 @@ void add_campaign_identify(CLI::App& campaign, int& status) {
       "identify",
       "Machines that no file describes, one a seed: commissioned over their bus, identified, then "
       "digging with the profile as shipped, as identified and as their truth; half as fast where a "
-      "dead time passes 100 ms");
+      "dead time passes 100 ms. Of a dozer's profile hidden dozers, which grade");
   add_profile_option(*command, options->profile);
   options->campaign.draws = 200;
   add_campaign_options(*command, options->campaign);

@@ -12,12 +12,15 @@
 
 #include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/commission_dozer.hpp"
 #include "app/cli/commission_on_bus.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
 #include "app/commission/commission_windows.hpp"
+#include "app/commission/dozer_plan.hpp"
+#include "app/machines/profile_file.hpp"
 #include "app/runs/code_text.hpp"
 #include "app/runs/commission_run.hpp"
 
@@ -27,6 +30,7 @@ namespace {
 struct CommissionCommand : BusCommission {
   machines::SimulatedChoice simulated;
   machines::Found found;
+  bool found_told = false;
   std::optional<std::uint64_t> seed;
   bool force = false;
 };
@@ -48,6 +52,8 @@ std::vector<std::string> drive_names() {
     names.emplace_back(commission::axis_name(axis));
   }
   names.emplace_back(commission::axis_name(kSwing));
+  names.insert(names.end(), std::begin(commission::kDozerDrives),
+               std::end(commission::kDozerDrives));
   return names;
 }
 
@@ -124,11 +130,38 @@ void commission_in_memory(const CommissionCommand& options) {
   fmt::print("{}{}", left_out_text(options.choice, run.sequence), next_text(options));
 }
 
+/// Of a dozer, what only an excavator has is refused.
+void commission_a_dozer(const CommissionCommand& options) {
+  if (!options.interface.empty()) {
+    throw std::runtime_error(
+        fmt::format("{}: a dozer is commissioned on a simulated machine alone, without --can",
+                    options.profile));
+  }
+  if (options.simulated.name || options.found_told) {
+    throw std::runtime_error(
+        fmt::format("{}: --simulated and --found are of an excavator; a dozer has --hidden",
+                    options.profile));
+  }
+  commission_dozer({options, options.simulated.hidden, options.seed, options.force});
+}
+
+void run_commission(const CommissionCommand& options) {
+  const auto kind = machines::profile_kind(machines::find_profile(options.profile));
+  if (kind == machines::MachineKind::kDozer) {
+    commission_a_dozer(options);
+  } else if (options.interface.empty()) {
+    commission_in_memory(options);
+  } else {
+    commission_on_bus(options);
+  }
+}
+
 /// What is tried, of both kinds of run.
 void add_choice(CLI::App& command, CommissionCommand& options, std::vector<CLI::Option*>& added) {
   SequenceChoice& choice = options.choice;
   added.push_back(
-      command.add_option("--only", choice.only, "Drives to try, the swing too, instead of all")
+      command.add_option("--only", choice.only, "Drives to try, the swing too, instead of all; of a "
+                                             "dozer blade, tilt, tracks")
           ->check(one_of(drive_names()))
           ->delimiter(','));
   added.push_back(
@@ -197,16 +230,18 @@ void add_commission(CLI::App& app, int& status) {
       "--windows", options->windows,
       "TOML file with a table for each drive: least, most (m), speed (m/s), "
       "retracted_end_free, extended_end_free; for the swing right, left (rad), speed (rad/s), "
-      "without which it is left out. Without it: asked for on a terminal, "
+      "without which it is left out; of a dozer [blade], [tilt], [tracks], these with the way behind "
+      "(below 0) and before, m. Without it: asked for on a terminal, "
       "the whole strokes, 30 deg to each side, in a simulation");
   std::vector<CLI::Option*> choices;
   add_choice(*command, *options, choices);
   add_bus_options(*command, *options, *can, choices);
   add_examples(*command, {"commission --simulated excavator_22t_found --log out/machine.log",
                           "commission --can can0 --profile mine.toml --gamepad /dev/input/event5"});
-  command->callback([options, &status] {
+  command->callback([options, command, &status] {
+    options->found_told = command->count("--found") > 0;
     status = guarded("commission", [&] {
-      options->interface.empty() ? commission_in_memory(*options) : commission_on_bus(*options);
+      run_commission(*options);
     });
   });
 }

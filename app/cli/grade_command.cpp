@@ -43,6 +43,7 @@ struct GradeCommand {
   std::vector<std::string> figures;
   std::vector<std::string> faults;
   std::optional<double> most_s;
+  std::string unknown_drives;  ///< See speed_with().
 };
 
 std::string end_text(const runs::GradeResult& result) {
@@ -95,6 +96,7 @@ void grade(const GradeCommand& told) {
   runs::GradeOptions run;
   run.faults = options.faults;
   run.most_s = options.most_s;
+  run.speed_override_ratio = speed_with(machine, options.unknown_drives, 1.0);
   const std::filesystem::path report = out / "grade.html";
   run.log_file = options.log.empty() ? out / "grade.log" : std::filesystem::path(options.log);
   const std::filesystem::path design = out / "design.txt";
@@ -159,12 +161,18 @@ void grade(const GradeCommand& told) {
   }
 }
 
+/// Where speeds are looked for, none can be taken off.
+void refuse_unknown(const machines::SimulatedDozer& machine) {
+  static_cast<void>(speed_with(machine, "", 1.0));
+}
+
 /// Fastest speed without the controller's bound.
 void search(const GradeCommand& options) {
   if (options.scenario.speed_mode != "constant") {
     throw std::runtime_error("--within looks for a constant speed: it needs --speed-mode constant");
   }
   const machines::SimulatedDozer machine = machine_of(options).machine;
+  refuse_unknown(machine);
   make_folder_of(options.summary);
   runs::FastestSpeed result;
   {
@@ -196,6 +204,7 @@ void compare(const GradeCommand& options) {
   }
   const machines::SimulatedDozer machine =
       machines::load_simulated_dozer(machines::find_profile(options.profile));
+  refuse_unknown(machine);
   std::vector<runs::SpeedRow> rows;
   {
     ProgressBar bar("grade");
@@ -222,6 +231,7 @@ void add_grade(CLI::App& app, int& status) {
   add_lateness_options(*command, options->scenario);
   add_error_option(*command, options->scenario);
   add_fault_option(*command, options->faults);
+  add_unknown_drives_option(*command, options->unknown_drives);
   add_seconds_option(*command, options->most_s,
                      "ten times what the wanted speed needs, and 20 s, of each pass");
   command->add_option("--seed", options->seed, "Of --errors, a whole number from 0")

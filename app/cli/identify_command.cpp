@@ -12,10 +12,12 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
 #include "app/cli/help.hpp"
+#include "app/cli/identify_dozer.hpp"
 #include "app/cli/identify_log.hpp"
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
 #include "app/identify/motion_result.hpp"
+#include "app/machines/profile_file.hpp"
 
 namespace graben::cli {
 namespace {
@@ -76,6 +78,9 @@ void check_usage(const IdentifyCommand& options) {
 void run(const IdentifyCommand& options) {
   if (!options.csv.empty()) {
     identify_motion(options);
+  } else if (machines::profile_kind(machines::find_profile(options.log.profile)) ==
+             machines::MachineKind::kDozer) {
+    identify_dozer_logs(options.log);
   } else if (options.log.check) {
     check_logs(options.log);
   } else {

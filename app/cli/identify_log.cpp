@@ -25,11 +25,48 @@
 #include "app/reports/identify/identify_report.hpp"
 
 namespace graben::cli {
-namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kShortHash = 12;
+namespace {
+
+std::string today() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));
+}
+
+}  // namespace
+
+std::string source_text(const std::vector<NamedLog>& logs) {
+  std::string text;
+  for (const NamedLog& log : logs) {
+    text += fmt::format("{}{} sha256 {}", text.empty() ? "" : " and ", log.name,
+                        log.sha256.substr(0, kShortHash));
+  }
+  return fmt::format("{}, {}", text, today());
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void assert_same_base(const fs::path& file, const fs::path& out) {
+  const auto alone = [&](const fs::path& as) {
+    return machines::ProfileDocument{as, toml::parse(text_of(file), file.string())};
+  };
+  const auto base = machines::base_of(alone(file));
+  const auto there = machines::base_of(alone(out));
+  std::error_code error;
+  if (base && !fs::equivalent(*base, *there, error)) {
+    throw std::runtime_error(
+        fmt::format("{}: {} is like {}, and beside {} that would be {}; allowed: a folder in which "
+                    "it is the same",
+                    out.string(), file.string(), base->string(), out.string(), there->string()));
+  }
+}
+
+namespace {
 
 machines::ExcavatorMachine load_profile(const std::string& name) {
   return machines::load_excavator(machines::find_profile(name));
@@ -77,19 +114,12 @@ std::vector<identify::MachineLog> read_logs(const IdentifyLogCommand& options,
   return logs;
 }
 
-std::string today() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));
-}
-
-/// "drive.log sha256 12ab34cd56ef, 2026-11-24".
 std::string source_of(const std::vector<identify::MachineLog>& logs) {
-  std::string text;
+  std::vector<NamedLog> named;
   for (const identify::MachineLog& log : logs) {
-    text += fmt::format("{}{} sha256 {}", text.empty() ? "" : " and ", log.name,
-                        log.sha256.substr(0, kShortHash));
+    named.push_back({log.name, log.sha256});
   }
-  return fmt::format("{}, {}", text, today());
+  return source_text(named);
 }
 
 /// Before any work: nothing that is read, and no other file, is lost.
@@ -110,11 +140,6 @@ void assert_outputs(const IdentifyLogCommand& options, const fs::path& profile) 
       assert_writable(file);
     }
   }
-}
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 /// Sides without a steady speed have no place under a limit: they are named rather than passed.
@@ -171,23 +196,6 @@ void assert_better(const identify::JudgedFit& fit, const IdentifyLogCommand& opt
     }
   }
   throw std::runtime_error(fit.predicts() ? text + next_text(options) : text);
-}
-
-/// What was found goes into the profile's own text: where that is like another, it has to be like
-/// the same one where it is written.
-void assert_same_base(const fs::path& file, const fs::path& out) {
-  const auto alone = [&](const fs::path& as) {
-    return machines::ProfileDocument{as, toml::parse(text_of(file), file.string())};
-  };
-  const auto base = machines::base_of(alone(file));
-  const auto there = machines::base_of(alone(out));
-  std::error_code error;
-  if (base && !fs::equivalent(*base, *there, error)) {
-    throw std::runtime_error(
-        fmt::format("{}: {} is like {}, and beside {} that would be {}; allowed: a folder in which "
-                    "it is the same",
-                    out.string(), file.string(), base->string(), out.string(), there->string()));
-  }
 }
 
 }  // namespace

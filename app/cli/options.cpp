@@ -277,9 +277,11 @@ void add_unknown_drives_option(CLI::App& command, std::string& how) {
       ->check(one_of({"slow"}));
 }
 
-double speed_with(const machines::ExcavatorMachine& machine, const runs::NeededDrives& needed,
-                  const std::string& how, double speed_override_ratio) {
-  const std::string unknown = runs::unknown_drives(machine, needed);
+namespace {
+
+/// The speed of a task of a machine whose drives are `unknown`, as a list in words.
+double speed_of_unknown(const std::string& name, const std::string& unknown,
+                        const std::string& how, double speed_override_ratio) {
   if (unknown.empty()) {
     return speed_override_ratio;
   }
@@ -287,10 +289,26 @@ double speed_with(const machines::ExcavatorMachine& machine, const runs::NeededD
     throw std::runtime_error(fmt::format(
         "{}: needs drives that were not commissioned: {}; commission and identify them, "
         "or --unknown-drives slow tries it slowly",
-        machine.name, unknown));
+        name, unknown));
   }
   fmt::print("not commissioned: {}: at {:.0f} % of the speed\n", unknown, 100.0 * kUnknownSpeed);
   return kUnknownSpeed * speed_override_ratio;
+}
+
+}  // namespace
+
+double speed_with(const machines::ExcavatorMachine& machine, const runs::NeededDrives& needed,
+                  const std::string& how, double speed_override_ratio) {
+  return speed_of_unknown(machine.name, runs::unknown_drives(machine, needed), how,
+                          speed_override_ratio);
+}
+
+double speed_with(const machines::DozerMachine& machine, const std::string& how,
+                  double speed_override_ratio) {
+  const std::vector<std::string> unknown =
+      machines::unknown_drives(machine.driven, machine.profile.tilt.present);
+  return speed_of_unknown(machine.name, fmt::format("{}", fmt::join(unknown, "; ")), how,
+                          speed_override_ratio);
 }
 
 void add_figure_option(CLI::App& command, std::vector<std::string>& figures,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/design/design_source.hpp"
+#include "app/machines/dozer_file.hpp"
 #include "app/machines/simulated/simulation_file.hpp"
 #include "app/runs/needed_drives.hpp"
 #include "app/runs/scenarios.hpp"
@@ -96,6 +97,9 @@ void add_unknown_drives_option(CLI::App& command, std::string& how);
 /// them were not commissioned. Throws std::runtime_error, which names them, unless `how` allows it.
 [[nodiscard]] double speed_with(const machines::ExcavatorMachine& machine,
                                 const runs::NeededDrives& needed, const std::string& how,
+                                double speed_override_ratio);
+/// The same of a dozer's task, which needs every drive there is.
+[[nodiscard]] double speed_with(const machines::DozerMachine& machine, const std::string& how,
                                 double speed_override_ratio);
 /// Names of all errors that an excavator's controller can have.
 [[nodiscard]] CLI::Validator error_name();

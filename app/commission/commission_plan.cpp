@@ -76,11 +76,12 @@ void add_swing(const SequenceOptions& options, std::vector<SequenceStep>& steps)
 void add_drive(const SequenceOptions& options, int axis, std::vector<SequenceStep>& steps) {
   const auto k = static_cast<unsigned>(axis);
   const Window& window = options.window[k];
-  steps.push_back({StepKind::kRamp, axis, 1});
-  steps.push_back({StepKind::kRamp, axis, -1});
+  const int first = options.first_sign[k];
+  steps.push_back({StepKind::kRamp, axis, first});
+  steps.push_back({StepKind::kRamp, axis, -first});
   for (int level = 0; options.steps && level < kLevelCount; ++level) {
-    steps.push_back({StepKind::kStep, axis, 1, level});
-    steps.push_back({StepKind::kStep, axis, -1, level});
+    steps.push_back({StepKind::kStep, axis, first, level});
+    steps.push_back({StepKind::kStep, axis, -first, level});
     if (options.bursts && level == kBurstAfter) {
       steps.push_back({StepKind::kBurst, axis, 1});
     }

@@ -3,6 +3,7 @@
 /// What is done to identify an excavator, step by step, and how each step may end.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,17 @@ struct SequenceOptions {
   double brakes_radps2 = 0.0;  ///< What closed ports and their reliefs surely give the platform.
   /// Strokes with the arm pulled in and the bucket off the ground, before the platform turns.
   std::array<double, kAxisCount> folded_m{};
+  std::array<int, kAxisCount> first_sign = {1, 1, 1};  ///< Way that each is tried first.
+  /// Shares of the window that a step wants before it: of the slowest, more for each next one, at
+  /// most. Where strokes are short, fast steps want nearly all.
+  double room = 0.20;
+  double room_per_level = 0.08;
+  double room_most = 0.5;
+  /// A drive's first ramp goes on until such a share of its window is before the other one.
+  double first_inside = 0.0;
+  double there_m = 0.03;  ///< So near to where a step begins counts as there.
+  /// Where the first drive is to stand while others are tried, once it is known; without: anywhere.
+  std::optional<double> parked_m;
 };
 
 /// Everything that there is, over the whole strokes; what is too near to an end for the machine's

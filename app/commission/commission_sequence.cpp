@@ -163,7 +163,8 @@ double CommissionSequence::start_m(const SequenceStep& step) const {
   double share = here;
   if (step.kind == StepKind::kStep || step.kind == StepKind::kPair) {
     // Fast steps want room, slow ones are content where they are.
-    const double room = std::min(0.20 + 0.08 * step.level, 0.5);
+    const double room =
+        std::min(options_.room + options_.room_per_level * step.level, options_.room_most);
     share = step.sign > 0 ? std::min(here, 1.0 - room) : std::max(here, room);
   } else if (step.kind == StepKind::kRamp || step.kind == StepKind::kBurst) {
     share = std::clamp(here, 0.25, 0.75);
@@ -175,11 +176,11 @@ double CommissionSequence::start_m(const SequenceStep& step) const {
 bool CommissionSequence::approach(int axis, double target_m) {
   const double left_m = target_m - stroke_m_[static_cast<unsigned>(axis)];
   const int sign = left_m > 0.0 ? 1 : -1;
-  if (edge(axis, sign) == 0.0 || std::abs(left_m) < kThere_m) {
+  if (edge(axis, sign) == 0.0 || std::abs(left_m) < options_.there_m) {
     return std::abs(speed_mps(axis)) < kStands_mps;
   }
   const double v_mps = sign * speed_mps(axis);
-  if (std::abs(left_m) > v_mps * kStops_s + kThere_m) {
+  if (std::abs(left_m) > v_mps * kStops_s + options_.there_m) {
     const bool far = std::abs(left_m) > kNear_m + travel_mps() * kStops_s;
     const double level = level_for(axis, sign, far ? travel_mps() : kNear_mps);
     drive(axis, level_duty(axis, sign, safe_level(axis, sign, level)));
@@ -210,6 +211,11 @@ void CommissionSequence::prepare() {
   bool ready = all_stand();
   if (step.kind != StepKind::kTouch) {
     ready = approach(step.axis, start_m(step)) && ready;
+  }
+  if (options_.parked_m && step.axis != 0) {
+    const double tried = now_.duty;
+    ready = approach(0, *options_.parked_m) && ready;
+    now_.duty = tried;  // Of another drive.
   }
   if (step.kind == StepKind::kPair) {
     SequenceStep second = step;

@@ -25,7 +25,12 @@ void CommissionSequence::run_ramp() {
     mark_s_ = time_s_;
   }
   if (mark_s_ > 0.0 && time_s_ - mark_s_ > kFoot_s) {
-    return finish(StepEnd::kDone);
+    const Window& window = options_.window[static_cast<unsigned>(step.axis)];
+    const double inside_m = options_.first_inside * (window.most_m - window.least_m);
+    if (edge(step.axis, -step.sign) > 0.0 || room_m(step.axis, -step.sign) >= inside_m) {
+      return finish(StepEnd::kDone);
+    }
+    return drive(step.axis, step.sign * ramp_);
   }
   if (ramp_ > kRampTo) {
     return finish(StepEnd::kNoMotion);

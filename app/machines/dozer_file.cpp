@@ -12,6 +12,7 @@ DozerMachine load_dozer(const ProfileDocument& document) {
   machine.name = document.file.stem().string();
   const std::uint32_t of_keys = read_as(document, MachineKind::kDozer, [&](TomlReader& reader) {
     machine.profile = read_dozer_sections(reader);
+    machine.driven = read_dozer_driven(reader, machine.profile.tilt.present);
     machine.provenance = reader.provenance();
     if (reader.has(kDesignKey) && reader.is_sound()) {
       const DesignLine line = read_design(document.file.parent_path() / design_name(reader));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/machines/blade_answers.hpp"
 #include "app/machines/profile_file.hpp"
 #include "app/machines/provenance.hpp"
 #include "firmware/dozer/dozer_profile.hpp"
@@ -28,6 +29,7 @@ struct DozerMachine {
   std::string name;        ///< File name without its ending.
   std::uint32_t hash = 0;  ///< Of the checked values (TomlReader::hash); on the bus as ProfileHash.
   DozerProfile profile;
+  DozerDriven driven;                  ///< What was commissioned, as far as said.
   DesignHeights design;                ///< Of a design in a file of its own.
   std::vector<Provenance> provenance;  ///< Where its values are from, as far as said.
 };

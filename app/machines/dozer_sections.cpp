@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/machines/blade_answers.hpp"
 #include "app/machines/bus_key.hpp"
 #include "app/machines/dozer_sections.hpp"
 #include "app/machines/mark_section.hpp"
@@ -224,6 +225,7 @@ DozerProfile read_dozer_sections(TomlReader& reader) {
   profile.mark = read_mark(reader, false,
                            "the mark, in the world of the design: x along it, z up; the middle of "
                            "the cutting edge is set to it");
+  read_blade_answers(reader, profile);
   profile.bus = read_bus(reader, profile.control.dead_time_s);
   return profile;
 }

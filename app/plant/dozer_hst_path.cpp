@@ -22,9 +22,10 @@ Oil oil_of(const DozerPlantProfile& profile) {
 }  // namespace
 
 DisplacementServo::DisplacementServo(double least, double start, double response_s, double rate_ps,
-                                     double step_s)
+                                     double dead_time_s, double step_s)
     : least_(least),
       start_(start),
+      late_(dead_time_s, step_s),
       share_(-std::expm1(-step_s / response_s)),
       most_(rate_ps * step_s),
       wanted_(start),
@@ -35,17 +36,19 @@ void DisplacementServo::set_wanted(double ratio) {
 }
 
 void DisplacementServo::step() {
-  const double asked = (fault_.reversed ? -wanted_ : wanted_) + fault_.offset_ratio;
+  const double wanted = start_ + late_.step(wanted_ - start_);
+  const double asked = (fault_.reversed ? -wanted : wanted) + fault_.offset_ratio;
   const double target = std::clamp(fault_.held_ratio.value_or(asked), least_, 1.0);
   ratio_ += std::clamp(share_ * (target - ratio_), -most_, most_);
 }
 
-HstPath::HstPath(const DozerPlantProfile& profile)
+HstPath::HstPath(const DozerPlantProfile& profile, std::size_t track)
     : pump_(-1.0, 0.0, profile.pump_response_s,
-            profile.displacement_rate_margin * profile.machine.hst.pump_rate_ps, profile.step_s()),
+            profile.displacement_rate_margin * profile.machine.hst.pump_rate_ps,
+            profile.displacement_dead_time_s, profile.step_s()),
       motor_(profile.machine.hst.motor_ratio_min, 1.0, profile.motor_response_s,
              profile.displacement_rate_margin * profile.machine.hst.motor_rate_ps,
-             profile.step_s()),
+             profile.displacement_dead_time_s, profile.step_s()),
       line_{WaveVolume(2, oil_of(profile), profile.step_s()),
             WaveVolume(2, oil_of(profile), profile.step_s())},
       protection_(profile.protection(profile.hst_relief_pa)),
@@ -64,7 +67,8 @@ HstPath::HstPath(const DozerPlantProfile& profile)
   // Of what the motor turns with: it has to take 1 / eta times that.
   const double motor_loss = 1.0 / hst.motor_efficiency - 1.0;
   const double full_flow = hst.pump_m3prev * hst.engine_radps / kTwoPi;
-  pump_m3prad_ = hst.pump_m3prev / kTwoPi * (1.0 - constant * pump_loss);
+  pump_m3prad_ =
+      profile.track_flow_factor[track] * hst.pump_m3prev / kTwoPi * (1.0 - constant * pump_loss);
   motor_m3prad_ = hst.motor_m3prev * hst.gear_ratio / kTwoPi;
   motor_flow_m3prad_ = motor_m3prad_ * (1.0 + constant * motor_loss);
   const double laminar_per_pa = (1.0 - constant) * full_flow / profile.hst_work_pa;

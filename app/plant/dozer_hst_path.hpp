@@ -7,6 +7,7 @@
 
 #include "app/plant/dozer_plant_profile.hpp"
 #include "app/plant/hydraulics.hpp"
+#include "app/plant/spool.hpp"
 #include "app/plant/wave_volume.hpp"
 
 namespace graben::plant {
@@ -21,7 +22,8 @@ struct DisplacementFault {
 /// A displacement that follows its command: first-order lag with a limited rate.
 class DisplacementServo {
  public:
-  DisplacementServo(double least, double start, double response_s, double rate_ps, double step_s);
+  DisplacementServo(double least, double start, double response_s, double rate_ps,
+                    double dead_time_s, double step_s);
 
   /// Not finite counts as where it started.
   void set_wanted(double ratio);
@@ -32,6 +34,7 @@ class DisplacementServo {
  private:
   double least_;
   double start_;
+  DeadTime late_;  ///< Of what is wanted beside where it started.
   double share_;  ///< Of the way that is left, in a step.
   double most_;   ///< In a step.
   double wanted_;
@@ -54,7 +57,7 @@ struct HstFlows {
 /// dry friction in proportion to its torque; the brake is dry friction too.
 class HstPath {
  public:
-  explicit HstPath(const DozerPlantProfile& profile);
+  explicit HstPath(const DozerPlantProfile& profile, std::size_t track = 0);
 
   [[nodiscard]] DisplacementServo& pump() { return pump_; }
   [[nodiscard]] DisplacementServo& motor() { return motor_; }

@@ -11,20 +11,22 @@ namespace graben::plant {
 ImplementSection lift_section(const DozerPlantProfile& profile) {
   const BladeGeometry& blade = profile.machine.blade;
   // Extension lowers the blade.
-  return {profile.machine.implement.valve_flow_max_m3ps,
+  const BladeValve valve = profile.valve(0);
+  return {valve.spool, valve.flow_factor * profile.machine.implement.valve_flow_max_m3ps,
           piston_areas(blade.cylinder_count, blade.bore_m, blade.rod_m),
           profile.lowering_back_pressure_pa, profile.raising_back_pressure_pa};
 }
 
 ImplementSection tilt_section(const DozerPlantProfile& profile) {
   const TiltProfile& tilt = profile.machine.tilt;
-  return {tilt.valve_flow_max_m3ps, piston_areas(tilt.cylinder_count, tilt.bore_m, tilt.rod_m),
+  const BladeValve valve = profile.valve(1);
+  return {valve.spool, valve.flow_factor * tilt.valve_flow_max_m3ps, piston_areas(tilt.cylinder_count, tilt.bore_m, tilt.rod_m),
           profile.tilt_back_pressure_pa, profile.tilt_back_pressure_pa};
 }
 
 ImplementCircuit::ImplementCircuit(const DozerPlantProfile& profile,
                                    const ImplementSection& section)
-    : spool_(profile.spool_dynamics()),
+    : spool_(section.spool),
       protection_(profile.protection(profile.port_relief_pa)),
       relief_(profile.implement_relief_pa),
       flow_max_(section.flow_max_m3ps) {

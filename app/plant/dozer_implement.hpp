@@ -21,6 +21,7 @@ struct ImplementFlows {
 
 /// What makes one section of the valve.
 struct ImplementSection {
+  SpoolDynamics spool;
   double flow_max_m3ps = 0.0;
   PistonAreas area;
   double extending_back_pressure_pa = 0.0;  ///< Of the chamber that empties.

@@ -35,9 +35,9 @@ DozerPlant::DozerPlant(const DozerPlantProfile& profile)
       engine_(profile.soil ? profile.engine_sag : EngineSag{}, step_s_),
       terrain_(ground_of(profile)),
       body_(profile),
-      path_{HstPath(profile), HstPath(profile)},
+      path_{HstPath(profile, kLeft), HstPath(profile, kRight)},
       traction_{Traction(profile), Traction(profile)},
-      pilot_(profile.dead_time_s, 0.0, step_s_),
+      pilot_(profile.valve(0).dead_time, profile.valve(0).pilot_lag_s, step_s_),
       implement_(profile, lift_section(profile)),
       blade_(profile),
       cylinder_(profile.blade_cylinder(blade_.linkage().full_stroke_m()), step_s_) {

@@ -3,6 +3,8 @@
 /// What the simulated dozer is: the nominal data that its controller has too, and what only a plant
 /// knows. SI units.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -55,6 +57,14 @@ struct TiltPlant {
   double dead_volume_m3 = 0.0;  ///< Each chamber with its hose.
 };
 
+/// A spool of the blade as it is made.
+struct BladeValve {
+  SpoolDynamics spool;
+  SideDelay dead_time;
+  double pilot_lag_s = 0.0;
+  double flow_factor = 1.0;  ///< Of the profile's largest flow.
+};
+
 struct DozerPlantProfile : HydraulicDetails {
   /// Geometry, displacements, ratios: the plant reads these numbers, and none of the functions that
   /// the controller has for them.
@@ -75,12 +85,16 @@ struct DozerPlantProfile : HydraulicDetails {
   double bulk_modulus_pa = 0.0;
   double implement_relief_pa = 0.0;
   TiltPlant tilt;
+  /// Lift and tilt where each is its own; else both are as the figures above say.
+  std::array<std::optional<BladeValve>, 2> own_valve;
 
   double hst_relief_pa = 0.0;
   double charge_pa = 0.0;
   double hst_line_volume_m3 = 0.0;
   double pump_response_s = 0.0;
   double motor_response_s = 0.0;
+  double displacement_dead_time_s = 0.0;  ///< Of pumps and motors, from a command on.
+  std::array<double, kTrackCount> track_flow_factor = {1.0, 1.0};  ///< Of each path's pump.
   double path_inertia_kgm2 = 0.0;  ///< At the sprocket.
   double mechanical_efficiency = 0.0;
 
@@ -138,9 +152,11 @@ struct DozerPlantProfile : HydraulicDetails {
 
   TimeUs step_us = 500;
 
-  [[nodiscard]] SpoolDynamics spool_dynamics() const {
+  /// Of lift (0) or tilt (1).
+  [[nodiscard]] BladeValve valve(std::size_t drive) const {
     const SpoolSide side{deadband_ratio, 0.0, 1.0};
-    return {spool_time_constant_s, spool_damping, side, side, 1.0};
+    return own_valve[drive].value_or(BladeValve{
+        {spool_time_constant_s, spool_damping, side, side, 1.0}, dead_time_s, 0.0, 1.0});
   }
   /// Both cylinders together; the stroke comes from the blade's reach.
   [[nodiscard]] CylinderData blade_cylinder(double stroke_m) const;

@@ -46,7 +46,7 @@ TiltDrive::TiltDrive(const DozerPlantProfile& profile, double step_s)
       step_(step_s),
       inertia_(profile.tilt.inertia_kgm2),
       weight_nm_(profile.blade_mass_kg * profile.gravity_mps2 * 0.5 * profile.blade_shape.height_m),
-      pilot_(profile.dead_time_s, 0.0, step_s),
+      pilot_(profile.valve(1).dead_time, profile.valve(1).pilot_lag_s, step_s),
       section_(profile, tilt_section(profile)),
       cylinder_(cylinder_of(profile, linkage_.full_stroke_m()), step_s) {
   cylinder_.start(linkage_.stroke_m(angle_), 0.0);

@@ -12,6 +12,7 @@
 #include "app/plant/command_link.hpp"
 #include "app/plant/frame_sender.hpp"
 #include "firmware/core/time.hpp"
+#include "firmware/dozer/dozer_signals.hpp"
 #include "firmware/excavator/excavator_signals.hpp"
 #include "firmware/signals/machine_signals.hpp"
 #include "hal/can_port.hpp"
@@ -36,6 +37,13 @@ struct OperatorHands {
   std::array<std::optional<StrokeWindow>, kAxisCount> window;
   /// As graben operate: in every second frame the levers are told a little less.
   bool alive = false;
+};
+
+/// The same of a dozer's Commission.
+struct DozerHands {
+  DozerTry tried;
+  /// Of lift, tilt and tracks; without one no frame says anything of the drive.
+  std::array<std::optional<StrokeWindow>, kTriedCount> window;
 };
 
 /// From `from_us` on the operator asks for this.
@@ -74,6 +82,11 @@ inline constexpr bool kHasHands = false;
 template <class Dbc>
 inline constexpr bool kHasHands<Dbc, std::void_t<typename Dbc::OperatorAxes>> = true;
 
+template <class Dbc, class = void>
+inline constexpr bool kHasTries = false;
+template <class Dbc>
+inline constexpr bool kHasTries<Dbc, std::void_t<typename Dbc::DozerTry>> = true;
+
 constexpr dbc::Physical said(double value) { return {value, dbc::RawState::kValid}; }
 
 /// `less`: 3 % of each, a step or some of the message.
@@ -107,11 +120,30 @@ auto commission_window(std::size_t axis, const StrokeWindow& window) {
   return message;
 }
 
+template <class Dbc>
+auto dozer_try(const DozerTry& tried) {
+  typename Dbc::DozerTry message;
+  message.drive = {static_cast<typename Dbc::DozerTry::Drive>(tried.drive), dbc::RawState::kValid};
+  message.ratio_ratio = said(tried.ratio);
+  message.motor_ratio = said(tried.motor_ratio);
+  return message;
+}
+
+template <class Dbc>
+auto dozer_window(std::size_t drive, const StrokeWindow& window) {
+  typename Dbc::DozerWindow message;
+  message.drive = {static_cast<typename Dbc::DozerWindow::Drive>(drive), dbc::RawState::kValid};
+  message.least_m = said(window.least_m);
+  message.most_m = said(window.most_m);
+  message.most_speed_mps = said(window.most_mps);
+  return message;
+}
+
 }  // namespace detail
 
 /// Sends OperatorCommand of the machine kind's DBC every 20 ms; where the kind has them and
-/// set_hands() was called, OperatorAxes and CommissionDuty as often, and CommissionWindow every 100
-/// ms, of all drives that have one by turns. The bus port belongs to the caller,
+/// set_hands(), of a dozer set_tries(), was called, OperatorAxes and CommissionDuty, or DozerTry, as often, and
+/// CommissionWindow or DozerWindow every 100 ms, of all drives that have one by turns. The bus port belongs to the caller,
 /// who opens it; of what it receives only EcuIdentity counts, whose stamp is repeated.
 template <class Dbc>
 class OperatorNode {
@@ -123,6 +155,8 @@ class OperatorNode {
 
   /// From now on, until it is called again; may be called every cycle.
   void set_hands(const OperatorHands& hands) { hands_ = hands; }
+
+  void set_tries(const DozerHands& hands) { tries_ = hands; }
 
   /// From the next step on, for 1 s: the tool is at the mark.
   void touch_mark() {
@@ -140,6 +174,9 @@ class OperatorNode {
     }
     if constexpr (detail::kHasHands<Dbc>) {
       send_hands(now);
+    }
+    if constexpr (detail::kHasTries<Dbc>) {
+      send_tries(now);
     }
     send_touch(now);
     ++cycle_;
@@ -186,6 +223,24 @@ class OperatorNode {
     }
   }
 
+  void send_tries(TimeUs now) {
+    if (!tries_) {
+      return;
+    }
+    if (cycle_ % (Dbc::DozerTry::kCycleTimeMs / 10) == 0) {
+      sender_.send(detail::dozer_try<Dbc>(tries_->tried), faults_, now);
+    }
+    if (cycle_ % (Dbc::DozerWindow::kCycleTimeMs / 10) == 0) {
+      for (std::size_t n = 0; n < kTriedCount; ++n) {
+        turn_ = (turn_ + 1) % kTriedCount;
+        if (tries_->window[turn_]) {
+          sender_.send(detail::dozer_window<Dbc>(turn_, *tries_->window[turn_]), faults_, now);
+          return;
+        }
+      }
+    }
+  }
+
   void send_next_window(TimeUs now) {
     for (std::size_t n = 0; n < kAxisCount; ++n) {
       turn_ = (turn_ + 1) % kAxisCount;
@@ -202,6 +257,7 @@ class OperatorNode {
   StampEcho<typename Dbc::EcuIdentity> echo_;
   std::vector<OperatorPhase> schedule_;
   std::optional<OperatorHands> hands_;
+  std::optional<DozerHands> tries_;
   std::size_t turn_ = kAxisCount - 1;  ///< Whose window was sent last.
   bool less_ = false;                  ///< The last levers were told so.
   std::uint8_t touch_number_ = 0;

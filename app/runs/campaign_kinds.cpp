@@ -5,10 +5,12 @@
 #include <stdexcept>
 
 #include "app/machines/simulated/hidden.hpp"
+#include "app/machines/simulated/hidden_dozer.hpp"
 #include "app/runs/assist_run.hpp"
 #include "app/runs/autodig_run.hpp"
 #include "app/runs/campaign_run.hpp"
 #include "app/runs/dig_run.hpp"
+#include "app/runs/dozer_identify_run.hpp"
 #include "app/runs/fence_campaign.hpp"
 #include "app/runs/grade_run.hpp"
 #include "app/runs/ground_campaign.hpp"
@@ -72,6 +74,15 @@ const CampaignKind& identify_kind() {
   return kind;
 }
 
+const CampaignKind& dozer_identify_kind() {
+  // In the order of DozerIdentifyEnd.
+  static const CampaignKind kind = {
+      "identify-dozer",
+      {"done", "commissioning-stopped", "not-identified", "identified-stopped"},
+      columns_of(dozer_identify_figures())};
+  return kind;
+}
+
 const CampaignKind& fence_kind() {
   // In the order of FenceEnd.
   static const CampaignKind kind = {
@@ -89,7 +100,8 @@ const CampaignKind& autodig_kind() {
 const CampaignKind& kind_of(const std::string& file) {
   const std::string name = campaign_name(file);
   for (const CampaignKind* kind :
-       {&dig_kind(), &grade_kind(), &designs_kind(), &identify_kind(), &autodig_kind(),
+       {&dig_kind(), &grade_kind(), &designs_kind(), &identify_kind(), &dozer_identify_kind(),
+        &autodig_kind(),
         &fence_kind(), &ground_kind(), &assist_kind()}) {
     if (name == kind->name) {
       return *kind;
@@ -171,6 +183,20 @@ CampaignOutcome campaign_identify(const CampaignOptions& options,
       options, identify_kind(),
       fmt::format("identify {} {:08x}, speed {}", nominal.name, nominal.hash, speed_override_ratio),
       draw, progress);
+}
+
+CampaignOutcome campaign_identify_dozer(const CampaignOptions& options,
+                                        const machines::SimulatedDozer& nominal,
+                                        const Progress& progress) {
+  const auto draw = [&](std::uint64_t seed) {
+    const DozerIdentifyResult result =
+        run_dozer_identification(machines::hidden_dozer(nominal, seed), show_nothing);
+    return campaign_row(static_cast<std::size_t>(result.end),
+                        figures_of(dozer_identify_figures(), result.summary, ""));
+  };
+  return run_campaign(options, dozer_identify_kind(),
+                      fmt::format("identify-dozer {} {:08x}", nominal.name, nominal.hash), draw,
+                      progress);
 }
 
 CampaignOutcome campaign_fences(const CampaignOptions& options,

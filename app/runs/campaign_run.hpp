@@ -54,6 +54,11 @@ struct CampaignOutcome {
                                                 bool as_designed, double speed_override_ratio,
                                                 const Progress& progress);
 
+/// The same of hidden dozers, put to the grade, see dozer_identify_run.hpp.
+[[nodiscard]] CampaignOutcome campaign_identify_dozer(const CampaignOptions& options,
+                                                      const machines::SimulatedDozer& nominal,
+                                                      const Progress& progress);
+
 /// Random tasks before random fences, see fence_campaign.hpp.
 [[nodiscard]] CampaignOutcome campaign_fences(const CampaignOptions& options,
                                               const machines::SimulatedExcavator& nominal,

@@ -46,7 +46,7 @@ struct CellFigures {
   int missed = 0;
 };
 
-double ranked(std::vector<double> values, double share) {
+double ranked_error(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
   return values.at(std::max<std::size_t>(rank, 1) - 1);
@@ -62,7 +62,7 @@ std::size_t column(const std::string& name) {
   return static_cast<std::size_t>(at - columns.begin());
 }
 
-std::string cell_table(const CampaignData& data) {
+std::string ground_table(const CampaignData& data) {
   const std::size_t over_cut = column("over_cut_m");
   const std::size_t left = column("ground_left_m");
   const std::size_t halt = column("halt_s");
@@ -89,9 +89,9 @@ std::string cell_table(const CampaignData& data) {
     text += fmt::format(
         "{:<28}{:<8}{:>6}{:>7}{:>8.1f}{:>8.1f}{:>8.1f}{:>6.2f}{:>6.2f}{:>8.0f}{:>7.0f}\n",
         designs.at(of.first).name, of.second, figures.over_cut_m.size(), figures.missed,
-        1e3 * ranked(figures.over_cut_m, 0.95), 1e3 * ranked(figures.over_cut_m, 1.0),
-        1e3 * ranked(figures.left_m, 1.0), figures.halt_s, figures.deceleration_mps2,
-        ranked(figures.passes, 0.5), ranked(figures.time_s, 0.5));
+        1e3 * ranked_error(figures.over_cut_m, 0.95), 1e3 * ranked_error(figures.over_cut_m, 1.0),
+        1e3 * ranked_error(figures.left_m, 1.0), figures.halt_s, figures.deceleration_mps2,
+        ranked_error(figures.passes, 0.5), ranked_error(figures.time_s, 0.5));
   }
   return text + fmt::format(
                     "cut: ground below the design, mm; left: above it, max, mm; halt: "
@@ -151,7 +151,7 @@ CampaignOutcome campaign_ground(const CampaignOptions& options,
                    fmt::format("ground {} {:08x}, {} cells, soils and errors drawn", nominal.name,
                                nominal.hash, ground_cells()),
                    draw, progress);
-  outcome.table += cell_table(read_campaign(options.summary, ground_kind()));
+  outcome.table += ground_table(read_campaign(options.summary, ground_kind()));
   return outcome;
 }
 

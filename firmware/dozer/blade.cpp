@@ -20,7 +20,17 @@ struct ImplementDrive {
   double rod_area_m2 = 0.0;
   double valve_flow_max_m3ps = 0.0;
   const DutyTable& spool_to_duty;
+  const SaidAnswers& answer;
 };
+
+double said_or(double said_s, double other_s) { return said_s == kUnsaid_s ? other_s : said_s; }
+
+SpoolAnswer answer_of(const ImplementDrive& drive, const DozerControl& control, bool extends) {
+  const SaidAnswer& said = drive.answer.side(extends);
+  return {said.spool_to_duty.size() == 0 ? drive.spool_to_duty : said.spool_to_duty,
+          said_or(said.dead_time_s, control.dead_time_s), said_or(said.lag_s, control.response_s),
+          0.0};
+}
 
 void fill_row(const DozerProfile& profile, const ImplementDrive& drive, DriveRow& row) {
   const DozerControl& control = profile.control;
@@ -30,8 +40,7 @@ void fill_row(const DozerProfile& profile, const ImplementDrive& drive, DriveRow
   row.metering.spool_travel_m = 1.0;
   row.supply = {drive.valve_flow_max_m3ps,
                 profile.implement.displacement_m3prev * profile.implement.efficiency / kTwoPi};
-  row.answer.extend = {drive.spool_to_duty, control.dead_time_s, control.response_s, 0.0};
-  row.answer.retract = row.answer.extend;
+  row.answer = {answer_of(drive, control, true), answer_of(drive, control, false)};
   row.control.spool_rate_ps = control.spool_rate_ps;
   row.control.duty_rate_ps = control.duty_rate_ps;
   row.control.spool_threshold = control.spool_threshold;
@@ -104,14 +113,15 @@ DozerBank dozer_bank(const DozerProfile& profile) {
   DozerBank bank;
   fill_row(profile,
            {BladeKinematics(blade).stroke_max_m(), blade.cap_area_m2(), blade.rod_area_m2(),
-            profile.implement.valve_flow_max_m3ps, profile.implement.spool_to_duty},
+            profile.implement.valve_flow_max_m3ps, profile.implement.spool_to_duty,
+            profile.answer[kBladeLift]},
            bank.row[kBladeLift]);
   bank.count = tilt.present ? kBladeCount : 1;
   if (tilt.present) {
     DriveRow& row = bank.row[kBladeTilt];
     fill_row(profile,
              {TiltKinematics(tilt).stroke_max_m(), tilt.cap_area_m2(), tilt.rod_area_m2(),
-              tilt.valve_flow_max_m3ps, tilt.spool_to_duty},
+              tilt.valve_flow_max_m3ps, tilt.spool_to_duty, profile.answer[kBladeTilt]},
              row);
     row.control.at_end.index = static_cast<std::uint8_t>(kBladeTilt);
   }

@@ -28,17 +28,21 @@ DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
       flow_limited(machine_, valid, is.estimates, preview_, motion, cycle.period_s, is.limits);
   ModeDecision decision =
       decide_mode(is.cycle, cycle, valid, Fault::kNone,
-                  spools_centred(machine_.drives, valid.drive), inputs.link.stop_requested);
+                  spools_centred(machine_.drives, valid.drive) && valid.hands_rest(),
+                  inputs.link.stop_requested);
+  const TriedCommand& tried = is.inputs.tried;
   DozerOutputs outputs;
-  put_out(machine_, valid, motion, travel, cycle.period_s, decision, is.output, outputs);
+  put_out(machine_, valid, motion, travel, tried, cycle.period_s, decision, is.output, outputs);
   end_cycle(decision, valid, is.cycle, outputs, outputs.status);
   check_mark(machine_, valid, is.estimates, inputs.driver.mark_touch, now_us, cycle.elapsed_s,
              is.last.mark, outputs.status);
-  const bool active = decision.active();
+  const bool active = decision.active() && !tried.tries;
   if (active) {
     tell_motion(machine_, is.estimates.pass, motion, travel, valid, outputs.status);
+  } else if (decision.active()) {
+    tell_tried(tried, valid, outputs.status);
   }
-  remember(machine_, valid, is.estimates, motion, travel, decision, outputs, cycle.period_s,
+  remember(machine_, valid, is.estimates, motion, travel, tried, decision, outputs, cycle.period_s,
            is.last);
   estimates_after(setup_.profile.grade, active, is.estimates);
   go_on(motion, active, is.motion);

@@ -210,6 +210,9 @@ struct DozerProfile {
   BladeGeometry blade;
   TiltProfile tilt;
   ImplementProfile implement;
+  /// What is known of each side of lift and tilt; the rest is `implement`'s, `tilt`'s and
+  /// `control`'s.
+  std::array<SaidAnswers, 2> answer;
   HstProfile hst;
   TravelProfile travel;
   GradeDesign grade;

@@ -42,6 +42,18 @@ struct BodyInputs {
   Signal<double> yaw_rate_radps;
 };
 
+/// What Task::kCommission can try.
+enum class TriedDrive : std::uint8_t { kNone = 0, kLift = 1, kTilt = 2, kTracks = 3 };
+/// Drives that Task::kCommission has windows of. [-; size: lift, tilt, both tracks]
+inline constexpr int kTriedCount = 3;
+
+/// One drive at a time.
+struct DozerTry {
+  TriedDrive drive = TriedDrive::kNone;
+  double ratio = 0.0;        ///< Duty of a spool, or displacement of both pumps, -1 .. 1.
+  double motor_ratio = 1.0;  ///< Displacement of both motors.
+};
+
 struct DozerInputs : MachineInputs {
   Signal<double> blade_stroke_m;
   Signal<double> blade_spool_ratio;  ///< See DriveInputs.
@@ -49,6 +61,10 @@ struct DozerInputs : MachineInputs {
   Signal<double> tilt_spool_ratio;
   BodyInputs body;
   std::array<TrackInputs, kTrackCount> track;
+  // Of Task::kCommission:
+  Signal<DozerTry> tried;
+  /// Of lift, tilt and tracks; of these m before and behind where they were tried first.
+  std::array<Signal<StrokeWindow>, kTriedCount> window;
 };
 
 /// Status of the dozer's controller.

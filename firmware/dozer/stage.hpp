@@ -23,6 +23,15 @@ struct DozerModel {
   [[nodiscard]] double reach_m() const { return blade.edge_m(0.0).x(); }
 };
 
+/// What Task::kCommission sends as it is asked for it, on drives of which nothing is known.
+struct TriedCommand {
+  bool tries = false;  ///< The task is followed; else nothing here counts.
+  std::array<double, kBladeCount> duty_ratio{};
+  double pump_ratio = 0.0;  ///< Of both tracks.
+  double motor_ratio = 1.0;
+  Limit limit;  ///< Of the first drive that its window holds back.
+};
+
 /// What a cycle commanded, and how that was followed. Written once, at its end.
 struct DozerLastCycle {
   DozerLastCommands commands;

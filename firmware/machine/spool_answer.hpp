@@ -37,4 +37,24 @@ struct SpoolAnswers {
   }
 };
 
+/// Stands for a time that a side of a spool does not say by itself. [s; derived: below 0 there is
+/// no such time]
+inline constexpr double kUnsaid_s = -1.0;
+
+/// A SpoolAnswer as far as it is known of one side by itself.
+struct SaidAnswer {
+  DutyTable spool_to_duty;  ///< Empty: not said.
+  double dead_time_s = kUnsaid_s;
+  double lag_s = kUnsaid_s;
+  double spool_time_constant_s = kUnsaid_s;
+};
+
+struct SaidAnswers {
+  SaidAnswer extend;
+  SaidAnswer retract;
+
+  [[nodiscard]] const SaidAnswer& side(bool extends) const { return extends ? extend : retract; }
+  [[nodiscard]] SaidAnswer& side(bool extends) { return extends ? extend : retract; }
+};
+
 }  // namespace graben

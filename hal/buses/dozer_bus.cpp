@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal/buses/dozer_bus.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "can_dbc/generated/dozer_dbc.hpp"
@@ -19,7 +20,29 @@ void put_transmission(TrackInputs& track, const Transmission& message, TimeUs no
   put(track.line_pressure_pa, message.line_pressure_pa, now);
 }
 
-struct Store : CommonStore<DozerInputs, Task::kGrade> {
+void put_try(const bus::DozerTry& message, TimeUs now, Signal<DozerTry>& to) {
+  // Together one thing that is asked for: none of it counts without the rest.
+  const Validity validity = std::min({validity_of(message.drive.state),
+                                      validity_of(message.ratio_ratio.state),
+                                      validity_of(message.motor_ratio.state)});
+  to = {{static_cast<TriedDrive>(message.drive.value), message.ratio_ratio.value,
+         message.motor_ratio.value},
+        validity,
+        now};
+}
+
+void put_window(const bus::DozerWindow& message, TimeUs now, DozerInputs& to) {
+  const auto drive = static_cast<unsigned>(message.drive.value);
+  const bool valid = message.drive.state == dbc::RawState::kValid &&
+                     message.least_m.state == dbc::RawState::kValid &&
+                     message.most_m.state == dbc::RawState::kValid &&
+                     message.most_speed_mps.state == dbc::RawState::kValid;
+  to.window[drive] = {{message.least_m.value, message.most_m.value, message.most_speed_mps.value},
+                      valid ? Validity::kValid : Validity::kNotAvailable,
+                      now};
+}
+
+struct Store : CommonStore<DozerInputs, Task::kGrade, Task::kCommission> {
   using CommonStore::store;
 
   static void store(const bus::BladeStroke& message, TimeUs now, To& to) {
@@ -62,12 +85,18 @@ struct Store : CommonStore<DozerInputs, Task::kGrade> {
     put(to.inputs.tilt_spool_ratio, message.tilt_spool_ratio, now);
     put(to.inputs.valve_enabled, message.enabled, now);
   }
+  static void store(const bus::DozerTry& message, TimeUs now, To& to) {
+    put_try(message, now, to.inputs.tried);
+  }
+  static void store(const bus::DozerWindow& message, TimeUs now, To& to) {
+    put_window(message, now, to.inputs);
+  }
 };
 
 using OwnReceived =
     dbc::MessageList<bus::BladeStroke, bus::BodyPosition, bus::BodyPitch, bus::BodyVelocity,
                      bus::LeftTransmission, bus::RightTransmission, bus::TrackSpeed, bus::TiltState,
-                     bus::BodyCourse, bus::ValveState>;
+                     bus::BodyCourse, bus::ValveState, bus::DozerTry, bus::DozerWindow>;
 constexpr auto kReceiveTable = receive_table<DozerInputs, Store>(OwnReceived{}, CommonReceived{},
                                                                  bus::kMessages, bus::kDbcVersion);
 

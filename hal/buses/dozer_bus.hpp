@@ -12,7 +12,7 @@ namespace graben {
 /// like one whose value is out of range.
 struct DozerReception {
   using Inputs = DozerInputs;
-  static constexpr int kMessageCount = 15;
+  static constexpr int kMessageCount = 17;
   [[nodiscard]] static const ReceiveTable<Inputs, kMessageCount>& table();
 };
 

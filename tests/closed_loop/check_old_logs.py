@@ -13,10 +13,10 @@ import tempfile
 
 LOGS = pathlib.Path(__file__).parent.parent / "old_logs"
 EXCAVATORS = LOGS / "excavator_10.log", LOGS / "excavator_11.log"
-DOZERS = LOGS / "dozer_7.log", LOGS / "dozer_8.log"
+DOZERS = LOGS / "dozer_7.log", LOGS / "dozer_8.log", LOGS / "dozer_9.log"
 EXCAVATOR, DOZER = EXCAVATORS[0], DOZERS[0]
 # The oldest that is read and this version.
-EXCAVATOR_READS, DOZER_READS = (10, 12), (7, 9)
+EXCAVATOR_READS, DOZER_READS = (10, 12), (7, 10)
 
 
 def call(folder, *arguments, status=0):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows 74, 75 and 89: tasks that go by the operator's hands.
+// Rows 74, 75 and 89: tasks that go by the operator's hands, of an excavator.
 
 #include <algorithm>
 #include <cmath>
@@ -146,15 +146,6 @@ Rows<Excavator> hand_rows(const Excavator&) {
   return {{74, "levers, or duties to try, silent", "N L", hands_silent},
           {75, "commissioning: reversed, swapped, too fast, too many", "N L", commissioning_fails},
           {89, "levers frozen under a live counter, their station alive", "N L", hands_frozen}};
-}
-
-Rows<Dozer> hand_rows(const Dozer&) {
-  return {{74, "levers, or duties to try, silent", "a dozer has no such task", nullptr},
-          {75, "commissioning", "a dozer has no such task", nullptr},
-          {76, "an IMU wrong", "a dozer has no IMUs", nullptr},
-          {77, "a sensor of CANopen tells an emergency", "a dozer has none", nullptr},
-          {89, "levers frozen", "a dozer has no such task", nullptr},
-          {90, "a gyro jumps", "a dozer has no IMUs", nullptr}};
 }
 
 }  // namespace graben::faults

@@ -28,7 +28,8 @@ struct DozerBus : ecu::DozerKind {
   /// A tilt and a track that curves, which the shipped dozer has not.
   [[nodiscard]] static constexpr bool is_of_a_part(std::uint32_t id) {
     return id == Dbc::TiltState::kId || id == Dbc::BodyCourse::kId ||
-           id == Dbc::TouchedPoint::kId || id == Dbc::ExternalLimit::kId;
+           id == Dbc::TouchedPoint::kId || id == Dbc::ExternalLimit::kId ||
+           id == Dbc::DozerTry::kId || id == Dbc::DozerWindow::kId;
   }
   [[nodiscard]] static bool may_miss(std::uint32_t id) { return id == Dbc::EcuChecks::kId; }
   [[nodiscard]] static std::array<double, kSpools> duties(const Dbc::SpoolCommand& command) {

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "app/machines/axis_names.hpp"
+#include "app/machines/blade_answers.hpp"
 #include "app/reports/check/likely.hpp"
 #include "app/reports/check/warnings.hpp"
 #include "firmware/dozer/blade.hpp"
@@ -117,6 +119,39 @@ FactTable tilt_drive_table(const DozerProfile& profile, const machines::Simulate
       {{{"left end up", extension_lifts ? tilt.cap_area_m2() : tilt.rod_area_m2()},
         {"left end down", extension_lifts ? tilt.rod_area_m2() : tilt.cap_area_m2()}}},
       profile.hst.engine_radps, simulated);
+}
+
+std::string percents(const machines::DrivenRange& range) {
+  return range.said ? fmt::format("{:.0f} .. {:.0f}", 100.0 * range.least, 100.0 * range.most)
+                    : std::string("-");
+}
+
+/// Lift and tilt, side by side, as the controller takes them.
+FactTable blade_answer_table(const machines::DozerMachine& machine) {
+  const bool tilts = machine.profile.tilt.present;
+  FactTable table{"Spools, as the controller takes them",
+                  {"", "opens at, %", "half open at, %", "fully at, %", "dead time, ms", "lag, ms",
+                   "driven, %"},
+                  {},
+                  "duties, in shares of the spool's travel; what the profile does not say of a side "
+                  "is its valve's; " +
+                      machines::commissioned_text(machine.driven, tilts)};
+  const DozerBank bank = dozer_bank(machine.profile);
+  for (std::size_t drive = 0; drive < static_cast<std::size_t>(bank.count); ++drive) {
+    for (const bool extends : {true, false}) {
+      const SpoolAnswer& answer = bank.row[drive].answer.side(extends);
+      const auto percent = [&](double opening) {
+        return fmt::format("{:.1f}", 100.0 * answer.spool_to_duty.at(opening));
+      };
+      table.rows.push_back({fmt::format("{}, {}", machines::kBladeNames[drive],
+                                        machines::kSideNames[extends ? 0 : 1]),
+                            percent(0.0), percent(0.5), percent(1.0),
+                            fmt::format("{:.0f}", 1e3 * answer.dead_time_s),
+                            fmt::format("{:.0f}", 1e3 * answer.lag_s),
+                            percents(machine.driven.blade[drive].side(extends))});
+    }
+  }
+  return table;
 }
 
 FactTable travel_table(const DozerProfile& profile) {
@@ -318,6 +353,7 @@ MachineCheck check_machine(const machines::DozerMachine& machine,
     check.tables.push_back(tilt_table(profile.tilt));
     check.tables.push_back(tilt_drive_table(profile, simulated));
   }
+  check.tables.push_back(blade_answer_table(machine));
   check.tables.push_back(travel_table(profile));
   check.tables.push_back(mode_table(profile, simulated));
   check.tables.push_back(provenance_table(machine.provenance));

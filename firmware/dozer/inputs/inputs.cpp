@@ -20,6 +20,7 @@ DozerValid read_inputs(const DozerModel& machine, const DozerInputs& inputs, con
       task_after_change(state.change, {valid.task, valid.task_number}, moving, at_rest,
                         {stroke_m.data(), drives.count()}, cycle.period_s);
   valid.task = task.task;
+  guard_tried(machine, cycle, last, valid, state);
   return valid;
 }
 

@@ -32,17 +32,29 @@ DozerCommand commanded(const DozerProfile& profile, const DozerValid& valid,
   return command;
 }
 
+/// What is tried, as it is.
+DozerCommand as_tried(const TriedCommand& tried) {
+  DozerCommand command;
+  command.tries = true;
+  command.tried_ratio = tried.duty_ratio;
+  command.pump_ratio = {tried.pump_ratio, tried.pump_ratio};
+  command.motor_ratio = {tried.motor_ratio, tried.motor_ratio};
+  return command;
+}
+
 }  // namespace
 
 void put_out(const DozerModel& machine, const DozerValid& valid, const BladeMotion& motion,
-             const Travel& travel, double period_s, ModeDecision& decision, DozerOutputState& state,
-             DozerOutputs& outputs) {
+             const Travel& travel, const TriedCommand& tried, double period_s,
+             ModeDecision& decision, DozerOutputState& state, DozerOutputs& outputs) {
   const DozerProfile& profile = machine.profile;
-  const DozerCommand command = commanded(profile, valid, motion, travel, period_s, state.track);
+  const DozerCommand command =
+      tried.tries ? as_tried(tried)
+                  : commanded(profile, valid, motion, travel, period_s, state.track);
   const DozerGateResult gated =
       gate_dozer(profile, machine.drives, decision.active(), command, period_s, state.gate);
   take_refusal(gated.fault, decision);
-  if (!decision.active()) {
+  if (!decision.active() || tried.tries) {
     state.track = {};
   }
   state.brake = brake(state.brake, decision.mode, valid, period_s);

@@ -16,8 +16,9 @@ struct DozerOutputState {
 };
 
 /// All that leaves the core for the machine. What the gate refuses ends `decision`'s motion.
+/// `tried` takes the place of motion and travel where its task is followed.
 void put_out(const DozerModel& machine, const DozerValid& valid, const BladeMotion& motion,
-             const Travel& travel, double period_s, ModeDecision& decision, DozerOutputState& state,
-             DozerOutputs& outputs);
+             const Travel& travel, const TriedCommand& tried, double period_s,
+             ModeDecision& decision, DozerOutputState& state, DozerOutputs& outputs);
 
 }  // namespace graben

@@ -43,7 +43,10 @@ DozerGateResult gate_dozer(const DozerProfile& profile, DriveRows drives, bool a
   }
   DozerGateResult result;
   std::array<double, kBladeCount> duty_ratio{};
-  if (active) {
+  if (active && wanted.tries) {
+    step_duties(drives, wanted.tried_ratio, period_s, state.duty_ratio, duty_ratio);
+    state.opening = {};
+  } else if (active) {
     open_spools(drives, wanted.opening, period_s, state.opening, duty_ratio);
   }
   const GateResult blade =

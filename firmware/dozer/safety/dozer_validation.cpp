@@ -78,6 +78,27 @@ void read_course(const BodyInputs& body, const Freshness& fresh, DozerValidation
   demand(state.heading_rad.rate, valid.course.yaw_rate_radps);
 }
 
+/// What Task::kCommission goes by.
+void read_tried(const DozerInputs& inputs, const Freshness& fresh, TimeUs now_us,
+                DozerValid& valid) {
+  if (valid.task != Task::kCommission) {
+    return;
+  }
+  const DozerTry& tried = inputs.tried.value;
+  if (fresh.holds(inputs.tried) && std::isfinite(tried.ratio) &&
+      std::isfinite(tried.motor_ratio)) {
+    valid.tried = tried;
+  } else {
+    valid.faults.add(Fault::kOperatorMissing);
+  }
+  const Freshness lately(kDozerWindowHolds_s, now_us);
+  for (unsigned i = 0; i < kTriedCount; ++i) {
+    if (lately.holds(inputs.window[i])) {
+      valid.window[i] = inputs.window[i].value;
+    }
+  }
+}
+
 void accept_pose(const BodyInputs& body, const Freshness& fresh, DozerValidationState& state,
                  FaultSet& faults) {
   state.position_m = believed(body.position_m, body.velocity_mps, kPositionMargin_m, fresh,
@@ -96,6 +117,7 @@ DozerValid validate(const DozerProfile& profile, DriveRows drives, const DozerIn
   const Freshness fresh(profile.control.sensor_timeout_s, now_us);
   read_machine(profile.bus, inputs, {profile.hst.engine_most_radps, profile.safety.idle_radps},
                fresh, now_us, valid);
+  read_tried(inputs, fresh, now_us, valid);
   if (!moving) {
     state = {};
   }

@@ -45,9 +45,13 @@ struct DozerValid : CommonValid {
   std::array<double, kTrackCount> motor_ratio{};
   std::array<double, kTrackCount> track_speed_mps{};
   std::array<double, kTrackCount> line_pressure_pa{};  ///< 0 where nobody tells it.
+  DozerTry tried;                                      ///< Only of Task::kCommission.
+  std::array<StrokeWindow, kTriedCount> window{};      ///< The same; without one, as constructed.
   /// Neither its displacements nor the body say what its sensor does, see watch_transmission().
   std::array<bool, kTrackCount> track_outvoted{};
 
+  /// Nothing is tried.
+  [[nodiscard]] bool hands_rest() const { return tried.ratio == 0.0; }
   [[nodiscard]] const ValidDrive& blade() const { return drive[kBladeLift]; }
   [[nodiscard]] const ValidDrive& tilt() const { return drive[kBladeTilt]; }
 };

@@ -158,4 +158,37 @@ inline constexpr double kTrackCoast_s = 0.125;
 /// chosen: with its pumps at 0 it has stopped by then; not tried]
 inline constexpr double kCoasting_s = 1.0;
 
+// Commissioning of the tracks (travel_guard.cpp): displacements tried on a transmission that nobody
+// knows
+
+/// Most way to either side that may be confirmed. [m; chosen: what a pose's frame holds; not tried]
+inline constexpr double kTravelMostWay_m = 15.0;
+/// Time from a displacement to the last of what it does. [s; chosen: slowest servo, 0.15 s of dead
+/// time, two lags of 0.15 s, and a machine of 9 t that gives way on its ground; not tried]
+inline constexpr double kTravelUnderWay_s = 0.8;
+/// Time until a machine that nothing drives has come to rest. [s; chosen: not tried]
+inline constexpr double kTravelComesToRest_s = 1.5;
+/// Least time to stop the machine in, before its window's end. [s; chosen: servo's lag, its
+/// braking from 1 m/s, and what its speed is measured late by; not tried]
+inline constexpr double kTravelStops_s = 0.8;
+/// Way outside the window that is a fault. [m; chosen: farther than a machine that is stopped in
+/// time ever is; not tried]
+inline constexpr double kTravelOutside_m = 0.10;
+/// Way against its displacement, or without any, that is a fault. [m; chosen: with what it then
+/// still goes the machine stays within 150 mm; not tried]
+inline constexpr double kTravelWrong_m = 0.06;
+/// Time constant with which that way is forgotten. [s; chosen: as kGuardForget_s; not tried]
+inline constexpr double kTravelForget_s = 5.0;
+/// Low-pass of the guard's speed. [s; chosen: as kGuardSpeed_s; not tried]
+inline constexpr double kTravelSpeedLag_s = 0.08;
+/// Displacement of the pumps that moves any machine. [-; chosen: no servo's dead zone is wider; not
+/// tried]
+inline constexpr double kTravelSurelyMoves = 0.2;
+/// Time that a machine may stand at such a displacement. [s; chosen: twice what is under way; not
+/// tried]
+inline constexpr double kTravelStands_s = 1.6;
+/// Time that a window of the commissioning counts: those of all drives come by turns. [s; chosen:
+/// as the excavator's; not tried]
+inline constexpr double kDozerWindowHolds_s = 1.0;
+
 }  // namespace graben

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/dozer/estimation/situation.hpp"
+#include "firmware/dozer/travel/tracks.hpp"
 #include "firmware/dozer/tuning.hpp"
 #include "firmware/drives/velocity_cap.hpp"
 
@@ -79,17 +80,23 @@ void tell_motion(const DozerModel& machine, const PassState& pass, const BladeMo
   status.available_flow_m3ps = motion.available_flow_m3ps;
 }
 
+void tell_tried(const TriedCommand& tried, const CommonValid& valid, DozerStatus& status) {
+  status.limit = held_by({valid.external.limit(), tried.limit, degraded_limit(valid.degraded)});
+}
+
 void remember(const DozerModel& machine, const DozerValid& valid, const DozerEstimates& estimates,
-              const BladeMotion& motion, const Travel& travel, const ModeDecision& decision,
-              const DozerOutputs& outputs, double period_s, DozerLastCycle& last) {
-  const bool active = decision.active();
+              const BladeMotion& motion, const Travel& travel, const TriedCommand& tried,
+              const ModeDecision& decision, const DozerOutputs& outputs, double period_s,
+              DozerLastCycle& last) {
+  // What is tried is on no design, and nobody knows what comes of it.
+  const bool active = decision.active() && !tried.tries;
   const PassPhase phase = estimates.pass.phase;
   next_tube_above(active && phase == PassPhase::kCut, unexcused_m(machine, motion),
                   machine.profile.safety.tube_m, last.tube);
   next_tube(active && estimates.design.curves(), std::abs(travel.off_track_m), kMostOffTrack_m,
             last.off_track);
   watch_stall(machine, valid, phase, travel, active, period_s, last.stall);
-  last.asked_mps = motion.asked_mps;
+  last.asked_mps = active ? motion.asked_mps : std::array<double, kBladeCount>{};
   last.fed = motion.fed;
   last.commands = {
       {in_motion(decision.mode.mode),
@@ -98,7 +105,12 @@ void remember(const DozerModel& machine, const DozerValid& valid, const DozerEst
        {active ? motion.blade.velocity_mps : 0.0, active ? motion.tilt.velocity_mps : 0.0}},
       {outputs.pump_ratio, outputs.motor_ratio},
       active ? travel.speed.state.speed_mps : 0.0};
-  last.commands.drives.active = active;
+  last.commands.drives.active = decision.active();
+  if (decision.active() && tried.tries) {
+    last.commands.drives.tried = true;
+    last.commands.speed_mps = track_speed_mps(machine.profile.hst, valid.engine_radps,
+                                              outputs.pump_ratio[kLeft], outputs.motor_ratio[kLeft]);
+  }
 }
 
 }  // namespace graben

@@ -15,9 +15,13 @@ void check_mark(const DozerModel& machine, const DozerValid& valid, const DozerE
 void tell_motion(const DozerModel& machine, const PassState& pass, const BladeMotion& motion,
                  const Travel& travel, const CommonValid& valid, DozerStatus& status);
 
+/// The same while drives are tried: what holds one back.
+void tell_tried(const TriedCommand& tried, const CommonValid& valid, DozerStatus& status);
+
 /// What the next cycle has to know of this one.
 void remember(const DozerModel& machine, const DozerValid& valid, const DozerEstimates& estimates,
-              const BladeMotion& motion, const Travel& travel, const ModeDecision& decision,
-              const DozerOutputs& outputs, double period_s, DozerLastCycle& last);
+              const BladeMotion& motion, const Travel& travel, const TriedCommand& tried,
+              const ModeDecision& decision, const DozerOutputs& outputs, double period_s,
+              DozerLastCycle& last);
 
 }  // namespace graben

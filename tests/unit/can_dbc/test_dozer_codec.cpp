@@ -55,9 +55,13 @@ constexpr Scale kScales[] = {
     {"SpeedShare", 5e-3, 0.0, 0.0, 1.0},
     {"Distance", 10e-3, 0.0, 0.0, 642.55},
     {"Deadline", 10e-3, 0.0, 0.1, 1.0},
+    {"Ratio", 5e-5, -1.6, -1.0, 1.0},
+    {"Least", 0.5e-3, -16.0, -16.0, 16.0},
+    {"Most", 0.5e-3, -16.0, -16.0, 16.0},
+    {"MostSpeed", 5e-5, 0.0, 0.0, 3.2},
 };
 
-TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 94); }
+TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 101); }
 
 TEST(saturates_and_refuses) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 

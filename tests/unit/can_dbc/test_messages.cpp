@@ -22,8 +22,8 @@ struct Plan {
 constexpr Plan kExcavator{0.40, 0.53, 21};
 constexpr Plan kWithoutSwing{0.25, 0.45, 17};
 // With the messages of a tilt and of a track that curves, and without.
-constexpr Plan kDozer{0.30, 0.50, 16};
-constexpr Plan kWithoutTilt{0.30, 0.44, 14};
+constexpr Plan kDozer{0.30, 0.52, 18};
+constexpr Plan kWithoutTilt{0.30, 0.46, 16};
 // With what is planned (README.md of can_dbc).
 constexpr double kMostWithPlan = 0.55;
 

@@ -104,7 +104,8 @@ struct DozerBus {
       List<dbc::dozer::BladeStroke, dbc::dozer::BodyPosition, dbc::dozer::BodyPitch,
            dbc::dozer::BodyVelocity, dbc::dozer::LeftTransmission, dbc::dozer::RightTransmission,
            dbc::dozer::TrackSpeed, dbc::dozer::TiltState, dbc::dozer::BodyCourse, DozerCommand,
-           dbc::dozer::ValveState, dbc::dozer::TouchedPoint, dbc::dozer::ExternalLimit>;
+           dbc::dozer::ValveState, dbc::dozer::TouchedPoint, dbc::dozer::ExternalLimit,
+           dbc::dozer::DozerTry, dbc::dozer::DozerWindow>;
   using Unprotected = List<dbc::dozer::EEC1, dbc::dozer::MachineIdentity>;
   using Other = List<dbc::dozer::BodyPitch, dbc::dozer::ValveState, dbc::dozer::SpoolCommand,
                      dbc::dozer::MotorDisplacementCommand>;

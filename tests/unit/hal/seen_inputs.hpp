@@ -57,6 +57,13 @@ inline Seen seen_in(const DozerInputs& in) {
   for (const TrackInputs& track : in.track) {
     see(seen, track.pump_ratio, track.motor_ratio, track.speed_mps);
   }
+  seen.emplace_back(in.tried.value.ratio, in.tried.validity, in.tried.stamp_us);
+  seen.emplace_back(in.tried.value.motor_ratio, in.tried.validity, in.tried.stamp_us);
+  for (const Signal<StrokeWindow>& window : in.window) {
+    for (const double each : {window.value.least_m, window.value.most_m, window.value.most_mps}) {
+      seen.emplace_back(each, window.validity, window.stamp_us);
+    }
+  }
   return seen;
 }
 

@@ -74,3 +74,49 @@ TEST(another_kinds_task_is_out_of_range, DozerReceiver receiver) {
   receiver.accept(frame_with<test::DozerCommand>(bus::OperatorCommand::kTask, 0, 4), now + 20'000);
   assert_int_equal(receiver.inputs().driver.task.value, Task::kNone);
 }
+
+TEST(what_is_tried, DozerFeed feed) {
+  using Drive = bus::DozerTry::Drive;
+  const TimeUs tried_us =
+      feed.send(bus::DozerTry{{Drive::kTracks, RawState::kValid}, valid(-0.25), valid(0.5)});
+  const Signal<DozerTry>& tried = feed.receiver.inputs().tried;
+  assert_int_equal(tried.validity, Validity::kValid);
+  assert_int_equal(tried.stamp_us, tried_us);
+  assert_int_equal(tried.value.drive, TriedDrive::kTracks);
+  assert_near(tried.value.ratio, -0.25, 1e-9);
+  assert_near(tried.value.motor_ratio, 0.5, 1e-9);
+}
+
+/// Where one of its values is none, nothing is asked for.
+TEST(part_of_what_is_tried_is_nothing) {
+  using Drive = bus::DozerTry::Drive;
+  DozerFeed lacks;
+  lacks.send(bus::DozerTry{
+      {Drive::kTilt, RawState::kValid}, {0.0, RawState::kNotAvailable}, valid(1.0)});
+  assert_int_equal(lacks.receiver.inputs().tried.validity, Validity::kNotAvailable);
+  DozerFeed fails;
+  fails.send(bus::DozerTry{{Drive::kTilt, RawState::kValid}, valid(0.5), {0.0, RawState::kError}});
+  assert_int_equal(fails.receiver.inputs().tried.validity, Validity::kError);
+}
+
+TEST(windows) {
+  using Drive = bus::DozerWindow::Drive;
+  for (const Drive drive : {Drive::kBlade, Drive::kTilt, Drive::kTracks}) {
+    DozerFeed feed;
+    const auto& windows = feed.receiver.inputs().window;
+    const auto at = static_cast<std::size_t>(drive);
+    const TimeUs window_us = feed.send(
+        bus::DozerWindow{{drive, RawState::kValid}, valid(-2.5), valid(3.0), valid(1.25)});
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+      assert_int_equal(windows[i].validity, i == at ? Validity::kValid : Validity::kNotReceived);
+    }
+    assert_int_equal(windows[at].stamp_us, window_us);
+    assert_near(windows[at].value.least_m, -2.5, 1e-9);
+    assert_near(windows[at].value.most_m, 3.0, 1e-9);
+    assert_near(windows[at].value.most_mps, 1.25, 1e-9);
+  }
+  DozerFeed lacks;
+  lacks.send(bus::DozerWindow{
+      {Drive::kTilt, RawState::kValid}, valid(0.0), {0.0, RawState::kNotAvailable}, valid(1.25)});
+  assert_int_equal(lacks.receiver.inputs().window[1].validity, Validity::kNotAvailable);
+}

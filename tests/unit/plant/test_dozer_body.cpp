@@ -243,7 +243,7 @@ Parked park_on(double slope, bool brake, double after_s) {
   const Terrain terrain = ramp(slope);
   HalfVehicle body(profile);
   static_cast<void>(over_the_ledge(body, terrain, 1.0, 6.0));
-  std::array<HstPath, 2> path{HstPath(profile), HstPath(profile)};
+  std::array<HstPath, 2> path{HstPath(profile, kLeft), HstPath(profile, kRight)};
   std::array<Traction, 2> traction{Traction(profile), Traction(profile)};
   Parked parked;
   double from = 0.0;

@@ -12,7 +12,8 @@ import {limit_shares} from '../src/view/limits/limit_shares';
 import {bytes_of, store_of} from './make';
 
 const folder = `${process.env.GRABEN_DBC ?? 'can_dbc'}/../tests/old_logs`;
-const [EXCAVATOR, EXCAVATOR_11, DOZER, DOZER_8] = ['excavator_10', 'excavator_11', 'dozer_7', 'dozer_8']
+const [EXCAVATOR, EXCAVATOR_11, DOZER, DOZER_8, DOZER_9] =
+  ['excavator_10', 'excavator_11', 'dozer_7', 'dozer_8', 'dozer_9']
   .map((name) => readFileSync(`${folder}/${name}.log`, 'utf8'));
 
 const states = (store: PageStore, signal: string, times_s: readonly number[]): string[] =>
@@ -31,7 +32,7 @@ test(`an excavator of version ${version}`, () => {
   assert.deepEqual(store.faults(), []);
 });
 
-for (const [version, log] of [[7, DOZER], [8, DOZER_8]] as const)
+for (const [version, log] of [[7, DOZER], [8, DOZER_8], [9, DOZER_9]] as const)
 test(`a dozer of version ${version}`, () => {
   const store = store_of(log);
   assert.equal(store.database, databaseOf('dozer', version));
