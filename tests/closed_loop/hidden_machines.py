@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Machines that no file describes, found from steel to profile: hidden_machines.py GRABEN [--profile NAME]
 [--machines 10] [--seed 1] [--jobs N] [--summary CSV] runs `graben campaign identify` on so many hidden machines,
-prints each and whether it is within the bounds, and ends with status 1 if a bound is missed:
+prints each and whether it is within the bounds, and ends with status 1 if a bound is missed; of a dozer's profile hidden
+dozers, whose edge takes the place of the tip:
 
 - commissioning ends without a fault, within five minutes, and a profile comes of it that digs;
 - the true tip's error with the identified profile is at most 1.3 times that of exact knowledge, or 5 mm more: the
   median, the 95th percentile, and machine by machine in 95 % of them;
-- with --speeds, every side's speed is within 3 % of full in 90 % of the machines."""
+- with --speeds, every side's speed is within 3 % of full in 90 % of the machines; of dozers in 90 % of the sides, always."""
 
 import argparse
 import csv
@@ -55,6 +56,10 @@ def judge(rows, speeds):
     print(f"machine by machine: {within} of {len(rows)} within")
     if within < WITHIN * len(rows):
         missed.append(f"machine by machine: {within} of {len(rows)}")
+    if rows and "sides_within_share" in rows[0]:
+        share = sum(float(row["sides_within_share"] or 0.0) for row in rows) / len(rows)
+        print(f"sides within {100 * SPEED:.0f} % of full speed: {100 * share:.0f} %")
+        return missed + ([f"speeds: {100 * share:.0f} % of the sides"] if share < 0.9 else [])
     fast = sum(float(row["speed_error_ratio"]) <= SPEED for row in done)
     print(f"speeds of all cylinders within {100 * SPEED:.0f} % of full: {fast} of {len(rows)}")
     if speeds and fast < 0.9 * len(rows):

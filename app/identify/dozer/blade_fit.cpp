@@ -139,6 +139,7 @@ Eigen::VectorXd BladeProblem::off(const Parameters& of) const {
 struct Solution {
   Parameters value;
   Parameters deviation;
+  double squares = 0.0;
 };
 
 /// A single outlier, as a drive that breaks loose, weighs no more than some deviations.
@@ -147,10 +148,10 @@ Eigen::VectorXd tamed(const Eigen::VectorXd& off) {
   return off.unaryExpr([](double each) { return kMost * std::tanh(each / kMost); });
 }
 
-Solution solve(const BladeProblem& problem, const Prior& prior) {
+Solution solve(const BladeProblem& problem, const Prior& prior, const Parameters& start) {
   constexpr int kSteps = 40;
   constexpr double kDelta = 1e-4;
-  Parameters at = prior.mean;
+  Parameters at = start;
   const auto squares = [&](const Parameters& of) {
     return tamed(problem.off(of)).squaredNorm() +
            ((of - prior.mean).array() / prior.deviation.array()).square().sum();
@@ -188,7 +189,22 @@ Solution solve(const BladeProblem& problem, const Prior& prior) {
   }
   const double each = std::max(1.0, now / static_cast<double>(std::max<std::size_t>(1, problem.count())));
   const Parameters variance = square.inverse().diagonal();
-  return {at, (each * variance).cwiseSqrt()};
+  return {at, (each * variance).cwiseSqrt(), now};
+}
+
+/// From several edges on: far from it a soft opening looks like a sharp one elsewhere.
+Solution best_of(const BladeProblem& problem, const Prior& prior) {
+  Solution best;
+  best.squares = -1.0;
+  for (const double edge : {0.13, 0.22, 0.32, 0.45}) {
+    Parameters start = prior.mean;
+    start[kEdgeE] = start[kEdgeR] = edge;
+    const Solution found = solve(problem, prior, start);
+    if (best.squares < 0.0 || found.squares < best.squares) {
+      best = found;
+    }
+  }
+  return best;
 }
 
 /// Duties of this side, and how its spool follows.
@@ -222,15 +238,19 @@ void find_times(const std::vector<DozerLog>& logs, std::size_t drive, bool exten
 void find_driven(const std::vector<DozerLog>& logs, std::size_t drive, bool extends,
                  BladeSideEstimate& side) {
   constexpr std::size_t kOver = 8;
+  /// What was sent before it is no longer under way.
+  constexpr std::size_t kStands = 40;
   const double sign = extends ? 1.0 : -1.0;
   for (const DozerLog& log : logs) {
     for (const DozerSegment& segment : log.segments) {
       const BladeSeries& of = segment.blade[drive];
+      std::size_t since = 0;
       for (std::size_t at = kOver; at < of.stroke_m.size(); ++at) {
         const double speed_mps =
             sign * (of.stroke_m[at] - of.stroke_m[at - kOver]) / (kGrid_s * kOver);
         const double duty = sign * of.duty[at];
-        if (duty > 0.0 && speed_mps > kDrivenMoves_mps) {
+        since = duty > 0.0 ? since + 1 : 0;
+        if (since > kStands && speed_mps > kDrivenMoves_mps) {
           side.driven_least = side.known() ? std::min(side.driven_least, duty) : duty;
           side.driven_most = std::max(side.driven_most, duty);
         }
@@ -265,7 +285,7 @@ BladeFit fit_blade(const std::vector<DozerLog>& logs, std::size_t drive,
     return fit;
   }
   const Prior prior = prior_of(pump_flow_factor);
-  const Solution found = solve(problem, prior);
+  const Solution found = best_of(problem, prior);
   const double oil_s = std::exp(found.value[kOilLag]);
   for (const bool extends : {true, false}) {
     BladeSideEstimate& side = fit.drive.side(extends);

@@ -18,6 +18,9 @@ constexpr int kPlacesEach = 12;
 /// Of a grid point: so finely lags are followed.
 constexpr int kParts = 5;
 
+/// Of a pilot and a spool whose lags are not alike, equal ones make another dead time.
+constexpr double kUnlike_s = 0.006;
+
 struct Tried {
   double dead_s = 0.0;
   double lag_s = 0.0;
@@ -81,7 +84,8 @@ double LagProblem::squares_of(const SentAndSeen& piece, double dead_s, double la
 /// By how much a value may change until the squares grow by what noise gives them.
 double deviation_of(double squares, double less, double more, double step, double each) {
   const double curvature = (less - 2.0 * squares + more) / (step * step);
-  return curvature > 0.0 ? std::sqrt(2.0 * each / curvature) : step;
+  const double by_noise = curvature > 0.0 ? std::sqrt(2.0 * each / curvature) : step;
+  return std::hypot(kUnlike_s, by_noise);
 }
 
 }  // namespace
