@@ -167,8 +167,9 @@ runs::CampaignOutcome campaign_identify(const IdentifyCampaign& options,
   const auto file = machines::find_profile(options.profile);
   if (machines::profile_kind(file) == machines::MachineKind::kDozer) {
     if (options.as_designed || options.speed_override_ratio != 1.0) {
-      throw std::runtime_error("--as-designed and --speed are of excavators: a dozer is hidden, and "
-                               "grades at its own speed");
+      throw std::runtime_error(
+          "--as-designed and --speed are of excavators: a dozer is hidden, and "
+          "grades at its own speed");
     }
     return runs::campaign_identify_dozer(campaign, machines::load_simulated_dozer(file), progress);
   }

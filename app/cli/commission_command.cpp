@@ -138,9 +138,8 @@ void commission_a_dozer(const CommissionCommand& options) {
                     options.profile));
   }
   if (options.simulated.name || options.found_told) {
-    throw std::runtime_error(
-        fmt::format("{}: --simulated and --found are of an excavator; a dozer has --hidden",
-                    options.profile));
+    throw std::runtime_error(fmt::format(
+        "{}: --simulated and --found are of an excavator; a dozer has --hidden", options.profile));
   }
   commission_dozer({options, options.simulated.hidden, options.seed, options.force});
 }
@@ -159,11 +158,12 @@ void run_commission(const CommissionCommand& options) {
 /// What is tried, of both kinds of run.
 void add_choice(CLI::App& command, CommissionCommand& options, std::vector<CLI::Option*>& added) {
   SequenceChoice& choice = options.choice;
-  added.push_back(
-      command.add_option("--only", choice.only, "Drives to try, the swing too, instead of all; of a "
-                                             "dozer blade, tilt, tracks")
-          ->check(one_of(drive_names()))
-          ->delimiter(','));
+  added.push_back(command
+                      .add_option("--only", choice.only,
+                                  "Drives to try, the swing too, instead of all; of a "
+                                  "dozer blade, tilt, tracks")
+                      ->check(one_of(drive_names()))
+                      ->delimiter(','));
   added.push_back(
       command.add_option("--no-touch", choice.no_touch, "Ends of strokes that are not touched")
           ->check(one_of(end_names()))
@@ -230,7 +230,8 @@ void add_commission(CLI::App& app, int& status) {
       "--windows", options->windows,
       "TOML file with a table for each drive: least, most (m), speed (m/s), "
       "retracted_end_free, extended_end_free; for the swing right, left (rad), speed (rad/s), "
-      "without which it is left out; of a dozer [blade], [tilt], [tracks], these with the way behind "
+      "without which it is left out; of a dozer [blade], [tilt], [tracks], these with the way "
+      "behind "
       "(below 0) and before, m. Without it: asked for on a terminal, "
       "the whole strokes, 30 deg to each side, in a simulation");
   std::vector<CLI::Option*> choices;
@@ -240,9 +241,7 @@ void add_commission(CLI::App& app, int& status) {
                           "commission --can can0 --profile mine.toml --gamepad /dev/input/event5"});
   command->callback([options, command, &status] {
     options->found_told = command->count("--found") > 0;
-    status = guarded("commission", [&] {
-      run_commission(*options);
-    });
+    status = guarded("commission", [&] { run_commission(*options); });
   });
 }
 

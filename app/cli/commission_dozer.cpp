@@ -28,12 +28,12 @@ void choose_drives(const SequenceChoice& choice, commission::DozerOptions& optio
     throw std::runtime_error("--no-touch: no end of a dozer's stroke is touched");
   }
   for (const std::string& name : choice.only) {
-    const bool is_there = name == "blade" || name == "tracks" || (name == "tilt" && options.has_tilt);
+    const bool is_there =
+        name == "blade" || name == "tracks" || (name == "tilt" && options.has_tilt);
     if (!is_there) {
-      throw std::runtime_error(fmt::format("--only {}: the profile has no such drive; it has {}",
-                                           name,
-                                           options.has_tilt ? "blade, tilt, tracks"
-                                                            : "blade, tracks"));
+      throw std::runtime_error(
+          fmt::format("--only {}: the profile has no such drive; it has {}", name,
+                      options.has_tilt ? "blade, tilt, tracks" : "blade, tracks"));
     }
   }
   const auto chosen = [&](const char* name) {
@@ -61,9 +61,8 @@ std::string left_out_dozer(const commission::DozerOptions& options) {
   if (!options.blade.bursts) {
     out.emplace_back("pulses for the lowest mode");
   }
-  return out.empty()
-             ? ""
-             : fmt::format("left out, and so not identified: {}\n", fmt::join(out, ", "));
+  return out.empty() ? ""
+                     : fmt::format("left out, and so not identified: {}\n", fmt::join(out, ", "));
 }
 
 std::string why_stopped(const runs::DozerCommissionResult& result) {

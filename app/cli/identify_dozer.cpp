@@ -38,8 +38,8 @@ std::vector<DozerLog> dozer_logs(const IdentifyLogCommand& options,
         throw std::runtime_error(fmt::format("{}: is the same log as {}", file, options.logs[n]));
       }
     }
-    const bool is_from = std::any_of(
-        machine.provenance.begin(), machine.provenance.end(), [&](const auto& value) {
+    const bool is_from =
+        std::any_of(machine.provenance.begin(), machine.provenance.end(), [&](const auto& value) {
           return value.from.find(log.sha256.substr(0, kShortHash)) != std::string::npos;
         });
     if (!options.any_machine && !is_from && log.profile_hash != 0 &&
@@ -59,7 +59,8 @@ std::string score_text(double score) {
 }
 
 void print_scores(const std::vector<std::pair<const char*, DozerScore>>& columns) {
-  fmt::print("error of the speed that the profile predicts by the duties, RMS over the speed's own\n");
+  fmt::print(
+      "error of the speed that the profile predicts by the duties, RMS over the speed's own\n");
   fmt::print("{:<8}", "");
   for (const auto& column : columns) {
     fmt::print("{:>10}", column.first);

@@ -280,8 +280,8 @@ void add_unknown_drives_option(CLI::App& command, std::string& how) {
 namespace {
 
 /// The speed of a task of a machine whose drives are `unknown`, as a list in words.
-double speed_of_unknown(const std::string& name, const std::string& unknown,
-                        const std::string& how, double speed_override_ratio) {
+double speed_of_unknown(const std::string& name, const std::string& unknown, const std::string& how,
+                        double speed_override_ratio) {
   if (unknown.empty()) {
     return speed_override_ratio;
   }

@@ -55,9 +55,9 @@ std::string in_words(const std::string& text) {
 
 std::string travel_text(const TravelStep& step) {
   const char* const way = step.sign > 0 ? "forward" : "back";
-  return step.motor ? fmt::format("tracks, {}: motors to half of their displacement", way)
-                    : fmt::format("tracks, {}: step {} of {}", way, step.level + 1,
-                                  kTravelLevelCount);
+  return step.motor
+             ? fmt::format("tracks, {}: motors to half of their displacement", way)
+             : fmt::format("tracks, {}: step {} of {}", way, step.level + 1, kTravelLevelCount);
 }
 
 Window read_window(machines::TomlReader& reader, const std::string& name,
@@ -65,8 +65,7 @@ Window read_window(machines::TomlReader& reader, const std::string& name,
   Window window;
   window.least_m = reader.number(name + ".least", range, "least stroke, or way behind (below 0)");
   window.most_m = reader.number(name + ".most", range, "largest stroke, or way before");
-  window.most_mps =
-      reader.number(name + ".speed", {kLeast_mps, most_mps, "m/s"}, "largest speed");
+  window.most_mps = reader.number(name + ".speed", {kLeast_mps, most_mps, "m/s"}, "largest speed");
   return window;
 }
 
@@ -150,9 +149,10 @@ std::vector<std::string> dozer_window_texts(const DozerOptions& options) {
     }
   }
   if (options.tracks) {
-    texts.push_back(fmt::format("tracks: from {:.1f} m behind to {:.1f} m before where they stand, "
-                                "at most {:.2f} m/s",
-                                -options.way.least_m, options.way.most_m, options.way.most_mps));
+    texts.push_back(
+        fmt::format("tracks: from {:.1f} m behind to {:.1f} m before where they stand, "
+                    "at most {:.2f} m/s",
+                    -options.way.least_m, options.way.most_m, options.way.most_mps));
   }
   return texts;
 }

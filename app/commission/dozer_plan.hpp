@@ -34,8 +34,8 @@ struct DozerOptions {
 };
 
 /// Everything, with the blade no lower than clear of the ground under a level body, and as much
-/// higher while it tilts. No end of a stroke is touched: nothing in a dozer's profile says a stroke's zero,
-/// which the mark checks.
+/// higher while it tilts. No end of a stroke is touched: nothing in a dozer's profile says a
+/// stroke's zero, which the mark checks.
 [[nodiscard]] DozerOptions whole_dozer(const DozerProfile& profile);
 
 [[nodiscard]] std::vector<TravelStep> planned_travel(const DozerOptions& options);

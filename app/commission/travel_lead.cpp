@@ -60,7 +60,8 @@ double TravelLead::room_m() const {
 
 /// What was tried before says how fast the next one will be at most.
 double TravelLead::level_ratio() const {
-  const double wanted = step_.motor ? kMotorPump : kTravelLevels[static_cast<std::size_t>(step_.level)];
+  const double wanted =
+      step_.motor ? kMotorPump : kTravelLevels[static_cast<std::size_t>(step_.level)];
   const double gain_mps = most_gain_mps_ / (step_.motor ? kMotorRatio : 1.0);
   return gain_mps > 0.0 ? std::min(wanted, kTravelOfMost * way_.most_mps / gain_mps) : wanted;
 }

@@ -44,7 +44,7 @@ class TravelLead {
   double at_m_ = 0.0;
   double speed_mps_ = 0.0;  ///< Low-passed.
   double stands_s_ = 0.0;
-  double moving_s_ = 0.0;  ///< Since it has begun to move.
+  double moving_s_ = 0.0;       ///< Since it has begun to move.
   double most_gain_mps_ = 0.0;  ///< Largest speed for a whole displacement that was seen.
 };
 

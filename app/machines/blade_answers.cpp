@@ -70,9 +70,9 @@ DozerDriven read_dozer_driven(TomlReader& reader, bool tilts) {
       }
     }
   }
-  driven.tracks = read_range(
-      reader, kTracksDriven,
-      "displacements of the pumps, either way, between which the tracks were measured");
+  driven.tracks =
+      read_range(reader, kTracksDriven,
+                 "displacements of the pumps, either way, between which the tracks were measured");
   return driven;
 }
 

@@ -35,8 +35,8 @@ class DisplacementServo {
   double least_;
   double start_;
   DeadTime late_;  ///< Of what is wanted beside where it started.
-  double share_;  ///< Of the way that is left, in a step.
-  double most_;   ///< In a step.
+  double share_;   ///< Of the way that is left, in a step.
+  double most_;    ///< In a step.
   double wanted_;
   double ratio_;
   DisplacementFault fault_;

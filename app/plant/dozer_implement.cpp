@@ -20,8 +20,9 @@ ImplementSection lift_section(const DozerPlantProfile& profile) {
 ImplementSection tilt_section(const DozerPlantProfile& profile) {
   const TiltProfile& tilt = profile.machine.tilt;
   const BladeValve valve = profile.valve(1);
-  return {valve.spool, valve.flow_factor * tilt.valve_flow_max_m3ps, piston_areas(tilt.cylinder_count, tilt.bore_m, tilt.rod_m),
-          profile.tilt_back_pressure_pa, profile.tilt_back_pressure_pa};
+  return {valve.spool, valve.flow_factor * tilt.valve_flow_max_m3ps,
+          piston_areas(tilt.cylinder_count, tilt.bore_m, tilt.rod_m), profile.tilt_back_pressure_pa,
+          profile.tilt_back_pressure_pa};
 }
 
 ImplementCircuit::ImplementCircuit(const DozerPlantProfile& profile,

@@ -95,7 +95,7 @@ struct DozerPlantProfile : HydraulicDetails {
   double motor_response_s = 0.0;
   double displacement_dead_time_s = 0.0;  ///< Of pumps and motors, from a command on.
   std::array<double, kTrackCount> track_flow_factor = {1.0, 1.0};  ///< Of each path's pump.
-  double path_inertia_kgm2 = 0.0;  ///< At the sprocket.
+  double path_inertia_kgm2 = 0.0;                                  ///< At the sprocket.
   double mechanical_efficiency = 0.0;
 
   GroundProfile ground;
@@ -155,8 +155,8 @@ struct DozerPlantProfile : HydraulicDetails {
   /// Of lift (0) or tilt (1).
   [[nodiscard]] BladeValve valve(std::size_t drive) const {
     const SpoolSide side{deadband_ratio, 0.0, 1.0};
-    return own_valve[drive].value_or(BladeValve{
-        {spool_time_constant_s, spool_damping, side, side, 1.0}, dead_time_s, 0.0, 1.0});
+    return own_valve[drive].value_or(
+        BladeValve{{spool_time_constant_s, spool_damping, side, side, 1.0}, dead_time_s, 0.0, 1.0});
   }
   /// Both cylinders together; the stroke comes from the blade's reach.
   [[nodiscard]] CylinderData blade_cylinder(double stroke_m) const;

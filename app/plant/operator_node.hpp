@@ -142,9 +142,10 @@ auto dozer_window(std::size_t drive, const StrokeWindow& window) {
 }  // namespace detail
 
 /// Sends OperatorCommand of the machine kind's DBC every 20 ms; where the kind has them and
-/// set_hands(), of a dozer set_tries(), was called, OperatorAxes and CommissionDuty, or DozerTry, as often, and
-/// CommissionWindow or DozerWindow every 100 ms, of all drives that have one by turns. The bus port belongs to the caller,
-/// who opens it; of what it receives only EcuIdentity counts, whose stamp is repeated.
+/// set_hands(), of a dozer set_tries(), was called, OperatorAxes and CommissionDuty, or DozerTry,
+/// as often, and CommissionWindow or DozerWindow every 100 ms, of all drives that have one by
+/// turns. The bus port belongs to the caller, who opens it; of what it receives only EcuIdentity
+/// counts, whose stamp is repeated.
 template <class Dbc>
 class OperatorNode {
  public:

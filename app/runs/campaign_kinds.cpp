@@ -101,8 +101,7 @@ const CampaignKind& kind_of(const std::string& file) {
   const std::string name = campaign_name(file);
   for (const CampaignKind* kind :
        {&dig_kind(), &grade_kind(), &designs_kind(), &identify_kind(), &dozer_identify_kind(),
-        &autodig_kind(),
-        &fence_kind(), &ground_kind(), &assist_kind()}) {
+        &autodig_kind(), &fence_kind(), &ground_kind(), &assist_kind()}) {
     if (name == kind->name) {
       return *kind;
     }

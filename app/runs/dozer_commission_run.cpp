@@ -46,8 +46,7 @@ void DozerEar::hear(const CanFrame& frame) {
     take(seen.sent_ratio[0], spools.blade_duty_ratio);
     take(seen.sent_ratio[1], spools.tilt_duty_ratio);
   } else if (same_message(frame.id, bus::EcuStatus::kId)) {
-    seen.active =
-        bus::EcuStatus::decode(frame.data).mode.value == bus::EcuStatus::Mode::kActive;
+    seen.active = bus::EcuStatus::decode(frame.data).mode.value == bus::EcuStatus::Mode::kActive;
   }
 }
 
@@ -70,8 +69,7 @@ plant::DozerHands confirmed(const commission::DozerOptions& options) {
     }
   }
   if (options.tracks) {
-    hands.window[2] =
-        StrokeWindow{options.way.least_m, options.way.most_m, options.way.most_mps};
+    hands.window[2] = StrokeWindow{options.way.least_m, options.way.most_m, options.way.most_mps};
   }
   return hands;
 }

@@ -31,8 +31,7 @@ identify::BladeSideEstimate known_side(const plant::BladeValve& valve, bool exte
   side.curve = {of.deadband_ratio, std::max(1e-3, kSoftPerSoftness * of.softness_ratio),
                 of.opening_exponent};
   side.edge = exactly(of.deadband_ratio);
-  side.dead_time_s =
-      exactly(extends ? valve.dead_time.extend_s : valve.dead_time.retract_s);
+  side.dead_time_s = exactly(extends ? valve.dead_time.extend_s : valve.dead_time.retract_s);
   side.lag_s = exactly(valve.pilot_lag_s + 2.0 * valve.spool.time_constant_s + kOilLag_s);
   side.driven_least = of.deadband_ratio;
   side.driven_most = 1.0;
@@ -106,16 +105,15 @@ double side_error(const machines::SimulatedDozer& hidden, const DozerProfile& fo
   const auto area_m2 = [&](const auto& cylinder) {
     return extends ? cylinder.cap_area_m2() : cylinder.rod_area_m2();
   };
-  const double fed_m2 =
-      drive == 0 ? area_m2(plant.machine.blade) : area_m2(plant.machine.tilt);
+  const double fed_m2 = drive == 0 ? area_m2(plant.machine.blade) : area_m2(plant.machine.tilt);
   const auto true_mps = [&](double duty) {
     return std::min(most_m3ps * of.area_ratio(duty), pump_m3ps) / fed_m2;
   };
   double most = 0.0;
   for (int n = 1; n <= kDuties; ++n) {
     const double duty = static_cast<double>(n) / kDuties;
-    const double found_mps = std::abs(
-        identify::steady_blade_mps(found, drive, extends ? duty : -duty, engine_radps));
+    const double found_mps =
+        std::abs(identify::steady_blade_mps(found, drive, extends ? duty : -duty, engine_radps));
     most = std::max(most, std::abs(found_mps - true_mps(duty)) / true_mps(1.0));
   }
   return most;
@@ -182,10 +180,9 @@ identify::DozerEstimate known_dozer(const machines::SimulatedDozer& hidden) {
         exactly(valve.flow_factor * (drive == 0 ? plant.machine.implement.valve_flow_max_m3ps
                                                 : plant.machine.tilt.valve_flow_max_m3ps));
   }
-  known.pump_flow_factor = exactly(plant.machine.implement.displacement_m3prev *
-                                   plant.machine.implement.efficiency /
-                                   (hidden.profile.implement.displacement_m3prev *
-                                    hidden.profile.implement.efficiency));
+  known.pump_flow_factor =
+      exactly(plant.machine.implement.displacement_m3prev * plant.machine.implement.efficiency /
+              (hidden.profile.implement.displacement_m3prev * hidden.profile.implement.efficiency));
   know_tracks(hidden, known.travel);
   return known;
 }
@@ -271,8 +268,7 @@ const FigureTable<DozerIdentifySummary>& dozer_identify_figures() {
        [](const S& s) { return s.dead_time_error_s; }},
       {{"lag_error_s", "lag, largest error", kSeconds, "lag_error_s"},
        [](const S& s) { return s.lag_error_s; }},
-      {{"pump_flow_error_ratio", "implement pump's flow, error", kPercent,
-        "pump_flow_error_ratio"},
+      {{"pump_flow_error_ratio", "implement pump's flow, error", kPercent, "pump_flow_error_ratio"},
        [](const S& s) { return s.pump_flow_error_ratio; }},
       {{"track_error_ratio", "speed of a track, largest error", kPercent, "track_error_ratio"},
        [](const S& s) { return s.track_error_ratio; }},
@@ -282,8 +278,8 @@ const FigureTable<DozerIdentifySummary>& dozer_identify_figures() {
       {{"sides_within_share", "sides within 3 % of full speed", kPercent, "sides_within_share",
         BadEnd::kLow},
        [](const S& s) { return s.sides_within_share; }},
-      {{"within_band_share", "true edge within the stated 95 % band", kPercent,
-        "within_band_share", BadEnd::kLow},
+      {{"within_band_share", "true edge within the stated 95 % band", kPercent, "within_band_share",
+        BadEnd::kLow},
        [](const S& s) { return s.within_band_share; }},
   };
   return all;

@@ -38,9 +38,9 @@ struct DozerIdentifySummary {
   double lag_error_s = kAbsent;
   double pump_flow_error_ratio = kAbsent;
   double track_error_ratio = kAbsent;
-  double speed_error_ratio = kAbsent;    ///< Of full speed, largest of all sides.
-  double sides_within_share = kAbsent;   ///< Sides within 3 % of full.
-  double within_band_share = kAbsent;    ///< Of edges: the truth within 1.96 deviations.
+  double speed_error_ratio = kAbsent;   ///< Of full speed, largest of all sides.
+  double sides_within_share = kAbsent;  ///< Sides within 3 % of full.
+  double within_band_share = kAbsent;   ///< Of edges: the truth within 1.96 deviations.
   LimitShares limit_share;
 };
 

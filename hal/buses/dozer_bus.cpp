@@ -22,9 +22,9 @@ void put_transmission(TrackInputs& track, const Transmission& message, TimeUs no
 
 void put_try(const bus::DozerTry& message, TimeUs now, Signal<DozerTry>& to) {
   // Together one thing that is asked for: none of it counts without the rest.
-  const Validity validity = std::min({validity_of(message.drive.state),
-                                      validity_of(message.ratio_ratio.state),
-                                      validity_of(message.motor_ratio.state)});
+  const Validity validity =
+      std::min({validity_of(message.drive.state), validity_of(message.ratio_ratio.state),
+                validity_of(message.motor_ratio.state)});
   to = {{static_cast<TriedDrive>(message.drive.value), message.ratio_ratio.value,
          message.motor_ratio.value},
         validity,

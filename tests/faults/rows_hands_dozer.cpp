@@ -28,7 +28,8 @@ plant::DozerHands begin_commission(Trial<Dozer>& trial) {
 void tries_silent(Trial<Dozer>& trial) {
   plant::DozerHands hands = begin_commission(trial);
   auto& rig = *trial.rig;
-  hands.tried = trial.odd() ? DozerTry{TriedDrive::kLift, -0.4} : DozerTry{TriedDrive::kTracks, 0.4};
+  hands.tried =
+      trial.odd() ? DozerTry{TriedDrive::kLift, -0.4} : DozerTry{TriedDrive::kTracks, 0.4};
   rig.driver.set_tries(hands);
   rig.run(trial.any_time(200 * kMillisecondUs, 800 * kMillisecondUs));
   trial.check(rig.mode() == EcuMode::kActive, "it does not work");
@@ -52,8 +53,8 @@ void dozer_commissioning_fails(Trial<Dozer>& trial) {
   auto& rig = *trial.rig;
   const double side = trial.any_of(2) == 0 ? 1.0 : -1.0;
   const bool tracks = kind == Wrong::kTracksFast || kind == Wrong::kPumps;
-  hands.tried = tracks ? DozerTry{TriedDrive::kTracks, 0.5 * side}
-                       : DozerTry{TriedDrive::kLift, 0.4 * side};
+  hands.tried =
+      tracks ? DozerTry{TriedDrive::kTracks, 0.5 * side} : DozerTry{TriedDrive::kLift, 0.4 * side};
   Fault expected = Fault::kCommissionBound;
   switch (kind) {
     case Wrong::kValve:

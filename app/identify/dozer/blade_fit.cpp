@@ -86,8 +86,8 @@ class BladeProblem {
       const bool free = std::min(from_m, to_m) > kFromEnd_m &&
                         std::max(from_m, to_m) < machine_.stroke_m - kFromEnd_m;
       const auto first = series.spool.begin() + static_cast<std::ptrdiff_t>(at);
-      const auto most = std::max_element(first, first + kWindow + 1,
-                                         [](double a, double b) { return std::abs(a) < std::abs(b); });
+      const auto most = std::max_element(
+          first, first + kWindow + 1, [](double a, double b) { return std::abs(a) < std::abs(b); });
       if (free && std::abs(*most) > 0.03) {
         piece.begin.push_back(at);
       }
@@ -187,7 +187,8 @@ Solution solve(const BladeProblem& problem, const Prior& prior, const Parameters
       }
     }
   }
-  const double each = std::max(1.0, now / static_cast<double>(std::max<std::size_t>(1, problem.count())));
+  const double each =
+      std::max(1.0, now / static_cast<double>(std::max<std::size_t>(1, problem.count())));
   const Parameters variance = square.inverse().diagonal();
   return {at, (each * variance).cwiseSqrt(), now};
 }

@@ -17,7 +17,7 @@ struct BladeSideEstimate {
   OpeningCurve curve;  ///< Flow over the spool's travel.
   Estimate edge;       ///< Of the curve.
   Estimate dead_time_s;
-  Estimate lag_s;            ///< From its command to the drive's speed, dead time apart.
+  Estimate lag_s;             ///< From its command to the drive's speed, dead time apart.
   double driven_least = 0.0;  ///< Least and most duty that moved it; both 0: none did.
   double driven_most = 0.0;
 

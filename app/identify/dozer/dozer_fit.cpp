@@ -22,7 +22,8 @@ constexpr double kSettlePerFoundLag = 1.75;
 
 constexpr std::array<const char*, 2> kFoundNames = {"blade", "tilt"};
 
-/// Openings are shares of `valve_m3ps`, of which this curve's spool lets all through at full travel.
+/// Openings are shares of `valve_m3ps`, of which this curve's spool lets all through at full
+/// travel.
 DutyTable table_of(const OpeningCurve& curve) {
   std::array<double, kBladeOpenings.size()> duty{};
   for (std::size_t at = 0; at < duty.size(); ++at) {
@@ -37,8 +38,7 @@ DutyTable table_of(const OpeningCurve& curve) {
     duty[at] = std::min(duty[at], most);
   }
   DutyTable table;
-  static_cast<void>(
-      table.fill(kBladeOpenings.data(), duty.data(), static_cast<int>(duty.size())));
+  static_cast<void>(table.fill(kBladeOpenings.data(), duty.data(), static_cast<int>(duty.size())));
   return table;
 }
 
@@ -83,8 +83,7 @@ double opening_at(const DutyTable& table, double duty) {
 class SpeedByDuty {
  public:
   SpeedByDuty(const DozerProfile& profile, std::size_t drive)
-      : machine_(blade_machine(profile, drive)),
-        row_(dozer_bank(profile).row[drive]) {}
+      : machine_(blade_machine(profile, drive)), row_(dozer_bank(profile).row[drive]) {}
 
   [[nodiscard]] std::vector<double> of(const std::vector<double>& duty,
                                        const std::vector<double>& engine_radps) const {
@@ -108,8 +107,7 @@ class SpeedByDuty {
       return 0.0;
     }
     const bool extends = duty > 0.0;
-    const double opening =
-        opening_at(row_.answer.side(extends).spool_to_duty, std::abs(duty));
+    const double opening = opening_at(row_.answer.side(extends).spool_to_duty, std::abs(duty));
     const double flow_m3ps =
         std::min(opening * machine_.valve_flow_m3ps, machine_.pump_m3prad * engine_radps);
     return extends ? flow_m3ps / machine_.extend_area_m2 : -flow_m3ps / machine_.retract_area_m2;
@@ -146,8 +144,7 @@ double blade_score(const DozerProfile& profile, const std::vector<DozerLog>& log
         for (std::size_t n = 1; n <= kOver; ++n) {
           mean_mps += modelled_mps[at + n] / kOver;
         }
-        const double measured_mps =
-            (of.stroke_m[at + kOver] - of.stroke_m[at]) / (kGrid_s * kOver);
+        const double measured_mps = (of.stroke_m[at + kOver] - of.stroke_m[at]) / (kGrid_s * kOver);
         if (std::max(std::abs(mean_mps), std::abs(measured_mps)) > kMoving_mps) {
           errors.add(mean_mps, measured_mps);
         }
@@ -203,8 +200,9 @@ void name_missing(const DozerProfile& profile, DozerEstimate& found) {
 
 DozerEstimate identify_dozer(const DozerProfile& profile, const std::vector<DozerLog>& logs) {
   DozerEstimate found;
-  const bool tilts = profile.tilt.present && std::all_of(logs.begin(), logs.end(),
-                                                         [](const DozerLog& log) { return log.tilts; });
+  const bool tilts =
+      profile.tilt.present &&
+      std::all_of(logs.begin(), logs.end(), [](const DozerLog& log) { return log.tilts; });
   const BladeFit lift = fit_blade(logs, kBladeLift, blade_machine(profile, kBladeLift), {});
   found.blade[kBladeLift] = lift.drive;
   found.pump_flow_factor = lift.pump_flow_factor;
@@ -255,8 +253,8 @@ DozerProfile identified_dozer(const DozerProfile& profile, const DozerEstimate& 
   const Estimate speed = found.travel.speed_factor();
   if (speed.known) {
     result.hst.pump_m3prev *= speed.value;
-    result.hst.response_s = std::max(
-        0.001, found.travel.pump_dead_time_s.value + found.travel.pump_lag_s.value);
+    result.hst.response_s =
+        std::max(0.001, found.travel.pump_dead_time_s.value + found.travel.pump_lag_s.value);
   }
   result.safety.settle_s =
       std::max(result.safety.settle_s, std::min(0.3, kSettlePerFoundLag * longest_lag_s));
@@ -285,8 +283,8 @@ std::vector<std::string> dozer_sentences(const DozerEstimate& found) {
             "{} track, {}: {:.1f} +- {:.1f} % of the speed that the profile has; slip {:.1f} %; "
             "line up to {:.1f} MPa",
             i == kLeft ? "left" : "right", forward ? "forward" : "back",
-            100.0 * side.speed_factor.value, 100.0 * side.speed_factor.deviation,
-            100.0 * side.slip, 1e-6 * side.most_pa));
+            100.0 * side.speed_factor.value, 100.0 * side.speed_factor.deviation, 100.0 * side.slip,
+            1e-6 * side.most_pa));
       }
     }
   }

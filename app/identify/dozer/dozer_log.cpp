@@ -75,7 +75,8 @@ std::vector<double> joined(const Readings& readings, double begin_s, std::size_t
     const Reading& before = readings[next];
     const Reading& after = readings[std::min(next + 1, readings.size() - 1)];
     const double span_s = after.time_s - before.time_s;
-    const double share = span_s > 0.0 ? std::clamp((time_s - before.time_s) / span_s, 0.0, 1.0) : 0.0;
+    const double share =
+        span_s > 0.0 ? std::clamp((time_s - before.time_s) / span_s, 0.0, 1.0) : 0.0;
     values[at] = before.value + share * (after.value - before.value);
   }
   return values;
@@ -275,8 +276,9 @@ DozerLog DozerCollector::Frames::log() {
   }
   const double damaged = static_cast<double>(log_.refused) / static_cast<double>(log_.frames);
   if (damaged > kMostDamaged) {
-    refuse(fmt::format("{:.0f} % of its frames have a wrong checksum or length; at most {:.0f} % may",
-                       100.0 * damaged, 100.0 * kMostDamaged));
+    refuse(
+        fmt::format("{:.0f} % of its frames have a wrong checksum or length; at most {:.0f} % may",
+                    100.0 * damaged, 100.0 * kMostDamaged));
   }
   if (!other_version_.empty()) {
     refuse(other_version_);
@@ -307,8 +309,7 @@ DozerLog DozerCollector::log() { return frames_->log(); }
 
 DozerLog read_dozer_log(const std::filesystem::path& file) {
   DozerCollector collector(file.filename().string());
-  const LogRead read =
-      read_candump(file, [&](const LoggedFrame& frame) { collector.take(frame); });
+  const LogRead read = read_candump(file, [&](const LoggedFrame& frame) { collector.take(frame); });
   DozerLog log = collector.log();
   log.sha256 = read.sha256;
   log.notes = read.notes();

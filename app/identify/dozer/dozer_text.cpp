@@ -147,16 +147,15 @@ std::vector<DozerChange> dozer_changes(const machines::DozerMachine& old,
   Changing changes;
   changes.number("implement", "valve_flow_max", was.implement.valve_flow_max_m3ps,
                  now.implement.valve_flow_max_m3ps, brief(lift.valve_flow_m3ps.deviation));
-  changes.number("implement", "dead_time", was.control.dead_time_s, now.control.dead_time_s,
-                 brief(std::max(lift.extend.dead_time_s.deviation,
-                                lift.retract.dead_time_s.deviation)));
+  changes.number(
+      "implement", "dead_time", was.control.dead_time_s, now.control.dead_time_s,
+      brief(std::max(lift.extend.dead_time_s.deviation, lift.retract.dead_time_s.deviation)));
   changes.number("implement.pump", "displacement", was.implement.displacement_m3prev,
                  now.implement.displacement_m3prev,
                  brief(was.implement.displacement_m3prev * found.pump_flow_factor.deviation));
   if (was.tilt.present) {
     changes.number("tilt", "valve_flow_max", was.tilt.valve_flow_max_m3ps,
-                   now.tilt.valve_flow_max_m3ps,
-                   brief(found.blade[1].valve_flow_m3ps.deviation));
+                   now.tilt.valve_flow_max_m3ps, brief(found.blade[1].valve_flow_m3ps.deviation));
   }
   change_travel(old, now, found.travel, changes);
   changes.number("control", "response", was.control.response_s, now.control.response_s,
@@ -178,12 +177,12 @@ std::string identified_dozer_text(const std::string& old_text,
   for (const DozerChange& change : changes) {
     const bool is_number =
         !change.deviation.empty() && change.deviation.find(' ') == std::string::npos;
-    text.set("provenance", change.path(),
-             fmt::format("{{ {}from = {} }}",
-                         is_number ? fmt::format("deviation = {}, ",
-                                                 said(std::stod(change.deviation)))
-                                   : "",
-                         toml_quoted(from)));
+    text.set(
+        "provenance", change.path(),
+        fmt::format(
+            "{{ {}from = {} }}",
+            is_number ? fmt::format("deviation = {}, ", said(std::stod(change.deviation))) : "",
+            toml_quoted(from)));
   }
   return text.text();
 }

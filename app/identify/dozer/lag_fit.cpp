@@ -42,9 +42,10 @@ class LagProblem {
   [[nodiscard]] std::size_t count() const {
     std::size_t count = 0;
     for (const SentAndSeen& piece : pieces_) {
-      count += piece.judged.empty() ? piece.seen.size()
-                                    : static_cast<std::size_t>(std::count(
-                                          piece.judged.begin(), piece.judged.end(), 1));
+      count +=
+          piece.judged.empty()
+              ? piece.seen.size()
+              : static_cast<std::size_t>(std::count(piece.judged.begin(), piece.judged.end(), 1));
     }
     return count;
   }
@@ -68,8 +69,7 @@ double LagProblem::squares_of(const SentAndSeen& piece, double dead_s, double la
     for (int part = 0; n > 0 && part < kParts; ++part) {
       // What was sent at a grid point holds until the next one.
       const int place = (static_cast<int>(n) - 1) * kParts + part - late;
-      const double sent =
-          place < 0 ? start_ : piece.sent[static_cast<std::size_t>(place / kParts)];
+      const double sent = place < 0 ? start_ : piece.sent[static_cast<std::size_t>(place / kParts)];
       first += share * (sent - first);
       second += share * (first - second);
     }
@@ -104,8 +104,9 @@ LagFit fit_lag(const std::vector<SentAndSeen>& pieces, int lags, double start) {
   for (int level = 0; level < kLevels; ++level) {
     for (int i = 0; i <= kPlacesEach; ++i) {
       for (int j = 0; j <= kPlacesEach; ++j) {
-        const Tried tried = problem.at(std::clamp(dead_from + i * dead_step, 0.0, kMostDead_s),
-                                       std::clamp(lag_from + j * lag_step, kLeastLag_s, kMostLag_s));
+        const Tried tried =
+            problem.at(std::clamp(dead_from + i * dead_step, 0.0, kMostDead_s),
+                       std::clamp(lag_from + j * lag_step, kLeastLag_s, kMostLag_s));
         best = tried.squares < best.squares ? tried : best;
       }
     }
@@ -117,11 +118,11 @@ LagFit fit_lag(const std::vector<SentAndSeen>& pieces, int lags, double start) {
   const auto count = static_cast<double>(problem.count());
   const double each = best.squares / std::max(1.0, count - 2.0);
   constexpr double kStep_s = 0.004;
-  fit.dead_time_s = {best.dead_s,
-                     deviation_of(best.squares, problem.at(best.dead_s - kStep_s, best.lag_s).squares,
-                                  problem.at(best.dead_s + kStep_s, best.lag_s).squares, kStep_s,
-                                  each),
-                     true};
+  fit.dead_time_s = {
+      best.dead_s,
+      deviation_of(best.squares, problem.at(best.dead_s - kStep_s, best.lag_s).squares,
+                   problem.at(best.dead_s + kStep_s, best.lag_s).squares, kStep_s, each),
+      true};
   fit.lag_s = {best.lag_s,
                deviation_of(best.squares, problem.at(best.dead_s, best.lag_s - kStep_s).squares,
                             problem.at(best.dead_s, best.lag_s + kStep_s).squares, kStep_s, each),

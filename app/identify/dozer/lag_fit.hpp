@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// How late a measured value follows what was sent: a dead time, then equal lags of the first order.
+/// How late a measured value follows what was sent: a dead time, then equal lags of the first
+/// order.
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 #pragma once
 /// Logs of earlier versions of the DBC. A kind's own version is read, and those from its oldest on:
 /// before `five_bits` EcuStatus had four bits for Mode and four for LimitKind; every other frame is
-/// the same. Later versions only have messages more: 12 second sensors', of a dozer 9 none, 10 those
-/// of its commissioning.
-/// A log of each is kept in tests/old_logs; the page's rule is in its model/dbc.ts.
+/// the same. Later versions only have messages more: 12 second sensors', of a dozer 9 none, 10
+/// those of its commissioning. A log of each is kept in tests/old_logs; the page's rule is in its
+/// model/dbc.ts.
 
 #include <cstdint>
 #include <filesystem>

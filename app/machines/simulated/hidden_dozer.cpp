@@ -79,8 +79,7 @@ plant::BladeValve drawn_valve(const plant::DozerPlantProfile& plant, const Dozer
       draw.symmetric(DozerFigure::kDeadTimeApart, drive, ranges.dead_time_apart_s);
   valve.dead_time = {std::clamp(dead_s + apart_s, 0.0, ranges.dead_time_most_s),
                      std::clamp(dead_s - apart_s, 0.0, ranges.dead_time_most_s)};
-  const double lag_s =
-      draw.within(DozerFigure::kLag, drive, ranges.lag_least_s, ranges.lag_most_s);
+  const double lag_s = draw.within(DozerFigure::kLag, drive, ranges.lag_least_s, ranges.lag_most_s);
   const double spool_s = lag_s * draw.within(DozerFigure::kSpoolShare, drive, 0.25, 0.75);
   valve.spool.damping = 1.0;
   valve.spool.time_constant_s = 0.5 * spool_s;
@@ -116,8 +115,8 @@ SimulatedDozer hidden_dozer(const SimulatedDozer& nominal, std::uint64_t seed) {
   }
   plant.machine.implement.displacement_m3prev *=
       draw.factor(DozerFigure::kPumpFlow, 0, ranges.pump_flow);
-  plant.bulk_modulus_pa = draw.within(DozerFigure::kOil, 0, ranges.bulk_modulus_least_pa,
-                                      ranges.bulk_modulus_most_pa);
+  plant.bulk_modulus_pa =
+      draw.within(DozerFigure::kOil, 0, ranges.bulk_modulus_least_pa, ranges.bulk_modulus_most_pa);
   plant.coulomb_n *= draw.factor(DozerFigure::kFriction, 0, ranges.friction);
   plant.viscous_nspm *= draw.factor(DozerFigure::kFriction, 1, ranges.friction);
   plant.tilt.coulomb_n *= draw.factor(DozerFigure::kFriction, 2, ranges.friction);
@@ -127,8 +126,8 @@ SimulatedDozer hidden_dozer(const SimulatedDozer& nominal, std::uint64_t seed) {
   plant.blade_mass_kg *= mass;
   plant.pitch_inertia_kgm2 *= mass;
   plant.tilt.roll_inertia_kgm2 *= mass;
-  plant.piston_leak_m3pspa *= draw.within(DozerFigure::kLeak, 0, ranges.piston_leak_least,
-                                          ranges.piston_leak_most);
+  plant.piston_leak_m3pspa *=
+      draw.within(DozerFigure::kLeak, 0, ranges.piston_leak_least, ranges.piston_leak_most);
   draw_tracks(draw, ranges, plant);
   plant.sensor_errors = true;
   plant.seed = seed;

@@ -30,9 +30,9 @@ struct HiddenDozerRanges {
   double mass = 0.10;
   double piston_leak_least = 0.3;  ///< Of the nominal leakage past a piston.
   double piston_leak_most = 5.0;
-  double track_flow = 0.05;      ///< Of both paths alike.
-  double track_apart = 0.015;    ///< One path's from that.
-  double servo_lag = 0.50;       ///< Of pumps and motors.
+  double track_flow = 0.05;    ///< Of both paths alike.
+  double track_apart = 0.015;  ///< One path's from that.
+  double servo_lag = 0.50;     ///< Of pumps and motors.
   double servo_dead_time_most_s = 0.040;
   double rolling = 0.30;
   double gauge = 0.03;

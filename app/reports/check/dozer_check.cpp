@@ -129,13 +129,14 @@ std::string percents(const machines::DrivenRange& range) {
 /// Lift and tilt, side by side, as the controller takes them.
 FactTable blade_answer_table(const machines::DozerMachine& machine) {
   const bool tilts = machine.profile.tilt.present;
-  FactTable table{"Spools, as the controller takes them",
-                  {"", "opens at, %", "half open at, %", "fully at, %", "dead time, ms", "lag, ms",
-                   "driven, %"},
-                  {},
-                  "duties, in shares of the spool's travel; what the profile does not say of a side "
-                  "is its valve's; " +
-                      machines::commissioned_text(machine.driven, tilts)};
+  FactTable table{
+      "Spools, as the controller takes them",
+      {"", "opens at, %", "half open at, %", "fully at, %", "dead time, ms", "lag, ms",
+       "driven, %"},
+      {},
+      "duties, in shares of the spool's travel; what the profile does not say of a side "
+      "is its valve's; " +
+          machines::commissioned_text(machine.driven, tilts)};
   const DozerBank bank = dozer_bank(machine.profile);
   for (std::size_t drive = 0; drive < static_cast<std::size_t>(bank.count); ++drive) {
     for (const bool extends : {true, false}) {

@@ -20,6 +20,7 @@ double slowest_period_s(const Messages& messages) {
   for (const auto& message : messages) {
     if (std::string(message.sender) != "Graben" && message.cycle_time_ms < kIdentity_ms &&
         message.id != dbc::excavator::CommissionWindow::kId &&
+        message.id != dbc::dozer::DozerWindow::kId &&
         message.id != dbc::excavator::TouchedPoint::kId &&
         message.id != dbc::excavator::ExternalLimit::kId &&
         std::string(message.sender) != "SecondSensors") {

@@ -23,8 +23,8 @@ struct DozerInputState {
   TriedCommand tried;  ///< Of this cycle, as far as it may be sent.
 };
 
-/// Guards what is tried while a machine is commissioned, of which nothing is known, and gives what of
-/// it may be sent in `state.tried`. What a drive does wrong stops, where nothing else does.
+/// Guards what is tried while a machine is commissioned, of which nothing is known, and gives what
+/// of it may be sent in `state.tried`. What a drive does wrong stops, where nothing else does.
 void guard_tried(const DozerModel& machine, const Cycle& cycle, const DozerLastCycle& last,
                  DozerValid& valid, DozerInputState& state);
 

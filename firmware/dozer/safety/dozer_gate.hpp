@@ -16,7 +16,7 @@ struct DozerCommand {
   std::array<double, kBladeCount> opening{};
   std::array<double, kTrackCount> pump_ratio{};
   std::array<double, kTrackCount> motor_ratio = {1.0, 1.0};
-  bool tries = false;  ///< `tried_ratio` in the place of openings.
+  bool tries = false;                             ///< `tried_ratio` in the place of openings.
   std::array<double, kBladeCount> tried_ratio{};  ///< Duties, -1 .. 1.
 };
 

@@ -85,8 +85,7 @@ void read_tried(const DozerInputs& inputs, const Freshness& fresh, TimeUs now_us
     return;
   }
   const DozerTry& tried = inputs.tried.value;
-  if (fresh.holds(inputs.tried) && std::isfinite(tried.ratio) &&
-      std::isfinite(tried.motor_ratio)) {
+  if (fresh.holds(inputs.tried) && std::isfinite(tried.ratio) && std::isfinite(tried.motor_ratio)) {
     valid.tried = tried;
   } else {
     valid.faults.add(Fault::kOperatorMissing);

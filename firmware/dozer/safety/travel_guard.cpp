@@ -52,8 +52,8 @@ Fault fault_of(const StrokeWindow& window, double way_m, const TravelGuardState&
   if (state.stands_s > kTravelStands_s) {
     return Fault::kStalled;
   }
-  const bool outside = way_m > window.most_m + kTravelOutside_m ||
-                       way_m < window.least_m - kTravelOutside_m;
+  const bool outside =
+      way_m > window.most_m + kTravelOutside_m || way_m < window.least_m - kTravelOutside_m;
   const bool fast = std::abs(state.speed_mps) > window.most_mps;
   return is_travel_window(window) && (outside || fast) ? Fault::kCommissionBound : Fault::kNone;
 }
@@ -81,8 +81,7 @@ TravelGuardResult next_travel(const TravelAsk& ask, const DozerValid& seen, doub
   // Of body and tracks the faster: one of them may slip, or be wrong.
   const double fastest_mps =
       std::abs(tracks_mps) > std::abs(seen.velocity_mps) ? tracks_mps : seen.velocity_mps;
-  state.speed_mps +=
-      (fastest_mps - state.speed_mps) * std::min(1.0, period_s / kTravelSpeedLag_s);
+  state.speed_mps += (fastest_mps - state.speed_mps) * std::min(1.0, period_s / kTravelSpeedLag_s);
   follow_sent(ask.sent_ratio, period_s, state);
   follow_way(seen.velocity_mps, ask.sent_ratio, period_s, state);
 

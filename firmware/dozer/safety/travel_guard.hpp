@@ -12,23 +12,23 @@ namespace graben {
 
 /// State from cycle to cycle.
 struct TravelGuardState {
-  bool begun = false;    ///< `from_m` is set.
-  double from_m = 0.0;   ///< Position at which they were tried first.
-  double speed_mps = 0.0;  ///< Low-passed, forward is positive.
+  bool begun = false;            ///< `from_m` is set.
+  double from_m = 0.0;           ///< Position at which they were tried first.
+  double speed_mps = 0.0;        ///< Low-passed, forward is positive.
   double since_forward_s = 0.0;  ///< Since the last displacement forwards; as long as it matters.
   double since_back_s = 0.0;
-  double wrong_m = 0.0;    ///< Gone against what is under way.
-  double free_m = 0.0;     ///< Gone although nothing is.
-  double stands_s = 0.0;   ///< Stood though it is told to go.
-  int held_side = 0;       ///< To which the window holds it back.
-  bool moves = false;      ///< Displacements were tried in the last cycle, or are under way.
+  double wrong_m = 0.0;   ///< Gone against what is under way.
+  double free_m = 0.0;    ///< Gone although nothing is.
+  double stands_s = 0.0;  ///< Stood though it is told to go.
+  int held_side = 0;      ///< To which the window holds it back.
+  bool moves = false;     ///< Displacements were tried in the last cycle, or are under way.
 };
 
 /// What is tried in this cycle.
 struct TravelAsk {
   double sent_ratio = 0.0;    ///< Pumps' displacement of the last cycle.
   double wanted_ratio = 0.0;  ///< What is asked for now.
-  StrokeWindow window;  ///< m behind and before `from_m`; as constructed: none is confirmed.
+  StrokeWindow window;        ///< m behind and before `from_m`; as constructed: none is confirmed.
 };
 
 struct TravelGuardResult {

@@ -108,8 +108,9 @@ void remember(const DozerModel& machine, const DozerValid& valid, const DozerEst
   last.commands.drives.active = decision.active();
   if (decision.active() && tried.tries) {
     last.commands.drives.tried = true;
-    last.commands.speed_mps = track_speed_mps(machine.profile.hst, valid.engine_radps,
-                                              outputs.pump_ratio[kLeft], outputs.motor_ratio[kLeft]);
+    last.commands.speed_mps =
+        track_speed_mps(machine.profile.hst, valid.engine_radps, outputs.pump_ratio[kLeft],
+                        outputs.motor_ratio[kLeft]);
   }
 }
 

@@ -45,7 +45,8 @@ struct Tracks {
 TEST(without_a_window_nothing_moves) {
   for (const StrokeWindow& window :
        {StrokeWindow{}, StrokeWindow{-2.0, 3.0, 0.0}, StrokeWindow{0.0, 3.0, 1.0},
-        StrokeWindow{-2.0, 0.0, 1.0}, StrokeWindow{-15.1, 3.0, 1.0}, StrokeWindow{-2.0, 15.1, 1.0}}) {
+        StrokeWindow{-2.0, 0.0, 1.0}, StrokeWindow{-15.1, 3.0, 1.0},
+        StrokeWindow{-2.0, 15.1, 1.0}}) {
     assert_false(is_travel_window(window));
     Tracks tracks;
     tracks.ask.window = window;

@@ -91,8 +91,8 @@ TEST(what_is_tried, DozerFeed feed) {
 TEST(part_of_what_is_tried_is_nothing) {
   using Drive = bus::DozerTry::Drive;
   DozerFeed lacks;
-  lacks.send(bus::DozerTry{
-      {Drive::kTilt, RawState::kValid}, {0.0, RawState::kNotAvailable}, valid(1.0)});
+  lacks.send(
+      bus::DozerTry{{Drive::kTilt, RawState::kValid}, {0.0, RawState::kNotAvailable}, valid(1.0)});
   assert_int_equal(lacks.receiver.inputs().tried.validity, Validity::kNotAvailable);
   DozerFeed fails;
   fails.send(bus::DozerTry{{Drive::kTilt, RawState::kValid}, valid(0.5), {0.0, RawState::kError}});

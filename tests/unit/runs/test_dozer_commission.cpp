@@ -38,9 +38,7 @@ struct Bench : runs::DozerRig {
       static_cast<void>(step(now_us));
     }
   }
-  [[nodiscard]] bool ecu_is_well() const {
-    return ecu->outputs().status.mode != EcuMode::kFault;
-  }
+  [[nodiscard]] bool ecu_is_well() const { return ecu->outputs().status.mode != EcuMode::kFault; }
   void try_for(TriedDrive drive, double ratio, double time_s, double motor = 1.0) {
     hands.tried = {drive, ratio, motor};
     run(time_s);
@@ -61,9 +59,9 @@ TEST(a_try_moves_its_drive_and_no_other) {
     TriedDrive drive;
     double ratio;
   };
-  for (const Case& of : {Case{TriedDrive::kLift, -0.4}, Case{TriedDrive::kTilt, 0.4},
-                         Case{TriedDrive::kTilt, -0.4}, Case{TriedDrive::kTracks, 0.4},
-                         Case{TriedDrive::kTracks, -0.4}}) {
+  for (const Case& of :
+       {Case{TriedDrive::kLift, -0.4}, Case{TriedDrive::kTilt, 0.4}, Case{TriedDrive::kTilt, -0.4},
+        Case{TriedDrive::kTracks, 0.4}, Case{TriedDrive::kTracks, -0.4}}) {
     Bench bench;
     const double before[] = {bench.lift_m(), bench.tilt_m(), bench.place_m()};
     bench.try_for(of.drive, of.ratio, 1.0);
@@ -129,8 +127,7 @@ TEST(without_its_window_a_drive_stands) {
 
 /// In no other task, and while the operator's share of the speed is 0, nothing is tried.
 TEST(an_override_of_nothing_holds_all, Bench bench) {
-  bench.driver.set_schedule(
-      {{0, {true, OperatorMode::kAutomatic, Task::kCommission, 0.0}}});
+  bench.driver.set_schedule({{0, {true, OperatorMode::kAutomatic, Task::kCommission, 0.0}}});
   bench.run(0.1);
   const double from_m = bench.place_m();
   bench.try_for(TriedDrive::kTracks, 0.5, 1.0);
