@@ -44,7 +44,8 @@ struct Tracks {
 
 TEST(without_a_window_nothing_moves) {
   for (const StrokeWindow& window :
-       {StrokeWindow{}, StrokeWindow{-2.0, 3.0, 0.0}, StrokeWindow{0.0, 3.0, 1.0},
+       {StrokeWindow{}, StrokeWindow{-2.0, 3.0, 0.0}, StrokeWindow{-2.0, 3.0, -1.0},
+        StrokeWindow{0.0, 3.0, 1.0}, StrokeWindow{1.0, 3.0, 1.0}, StrokeWindow{-2.0, -1.0, 1.0},
         StrokeWindow{-2.0, 0.0, 1.0}, StrokeWindow{-15.1, 3.0, 1.0},
         StrokeWindow{-2.0, 15.1, 1.0}}) {
     assert_false(is_travel_window(window));
@@ -84,6 +85,14 @@ TEST(it_is_held_before_an_end) {
     // Until it is no longer asked for; the other way is free.
     assert_int_equal(tracks.run(0.5, 0.5 * side, 0.0), Fault::kNone);
     assert_true(tracks.result.held);
+    Tracks turns = tracks;
+    turns.step(-0.5 * side, 0.0);
+    assert_false(turns.result.held);
+    tracks.step(0.0, 0.0);
+    assert_false(tracks.result.held);
+    // It stands, so there is room again.
+    tracks.step(0.1 * side, 0.0);
+    assert_near(tracks.result.pump_ratio, 0.1 * side, 0.0);
     tracks.step(-0.5 * side, 0.0);
     assert_false(tracks.result.held);
     assert_near(tracks.result.pump_ratio, -0.5 * side, 0.0);
@@ -104,15 +113,34 @@ TEST(outside_and_too_fast_are_faults) {
 }
 
 /// One of body and tracks may slip, or its sensor be wrong.
-TEST(the_faster_of_body_and_tracks_counts, Tracks tracks) {
-  tracks.seen.velocity_mps = 0.1;
-  tracks.seen.track_speed_mps = {1.2, 1.2};
-  tracks.ask.wanted_ratio = 0.5;
-  Fault fault = Fault::kNone;
-  for (int n = 0; n < 60 && fault == Fault::kNone; ++n) {
-    fault = next_travel(tracks.ask, tracks.seen, kPeriod_s, tracks.state).fault;
+TEST(the_faster_of_body_and_tracks_counts) {
+  for (const bool body : {false, true}) {
+    Tracks tracks;
+    const double track_mps = body ? 0.1 : 1.2;
+    tracks.seen.velocity_mps = body ? 1.2 : 0.1;
+    tracks.seen.track_speed_mps = {track_mps, track_mps};
+    tracks.ask.wanted_ratio = tracks.ask.sent_ratio = 0.5;
+    Fault fault = Fault::kNone;
+    for (int n = 0; n < 60 && fault == Fault::kNone; ++n) {
+      fault = next_travel(tracks.ask, tracks.seen, kPeriod_s, tracks.state).fault;
+    }
+    assert_int_equal(fault, Fault::kCommissionBound);
   }
-  assert_int_equal(fault, Fault::kCommissionBound);
+}
+
+/// At its begin nothing is under way, nor after a break, whatever was before.
+TEST(what_is_under_way_begins_with_the_task) {
+  for (const bool broken : {false, true}) {
+    Tracks tracks;
+    if (broken) {
+      tracks.run(1.0, 0.1, 0.1);
+      rest_travel(false, tracks.state);
+    } else {
+      tracks.state = {};
+    }
+    tracks.result = {};
+    assert_int_equal(tracks.run(0.5, 0.0, 0.2), Fault::kUncommandedMotion);
+  }
 }
 
 TEST(the_wrong_way_is_a_fault) {
