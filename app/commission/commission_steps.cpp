@@ -27,7 +27,8 @@ void CommissionSequence::run_ramp() {
   if (mark_s_ > 0.0 && time_s_ - mark_s_ > kFoot_s) {
     const Window& window = options_.window[static_cast<unsigned>(step.axis)];
     const double inside_m = options_.first_inside * (window.most_m - window.least_m);
-    if (edge(step.axis, -step.sign) > 0.0 || room_m(step.axis, -step.sign) >= inside_m) {
+    const bool inside = inside_m == 0.0 || room_m(step.axis, -step.sign) >= inside_m;
+    if (edge(step.axis, -step.sign) > 0.0 || inside) {
       return finish(StepEnd::kDone);
     }
     return drive(step.axis, step.sign * ramp_);
