@@ -61,7 +61,8 @@ TEST(the_observer_knows_a_flow_that_gives_way) {
   const KinematicState now = ExcavatorKinematics(machine().geometry).state({0.6, 0.7, 0.5});
   std::array<LoadState, kDriveCount> load{};
   load.fill({8e6, 5e6});
-  const OilModes modes = oil_modes(machine().oil, machine().geometry, now, {load.data(), 2}, 0.0, 1.0);
+  const OilModes modes =
+      oil_modes(machine().oil, machine().geometry, now, {load.data(), 2}, 0.0, 1.0);
   const auto error_mps = [&](double yield_mpsn) {
     OilState state;
     OilSeen seen;
@@ -88,7 +89,8 @@ TEST(what_stands_shows_no_missing_flow) {
   const KinematicState now = ExcavatorKinematics(machine().geometry).state({0.6, 0.7, 0.5});
   std::array<LoadState, kDriveCount> load{};
   load.fill({8e6, 5e6});
-  const OilModes modes = oil_modes(machine().oil, machine().geometry, now, {load.data(), 2}, 0.0, 1.0);
+  const OilModes modes =
+      oil_modes(machine().oil, machine().geometry, now, {load.data(), 2}, 0.0, 1.0);
   const auto after = [&](bool stands) {
     OilState state;
     OilSeen seen;

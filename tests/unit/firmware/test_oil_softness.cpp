@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Oil that is taken for softer: by a boom that rings slower than its mode, and by nothing else.
+// Oil that is taken for softer or stiffer: by a boom that rings slower or faster than its mode, and
+// by nothing else.
 
 #include <cmath>
 
@@ -79,7 +80,8 @@ int main() {
       cmocka_unit_test(a_slow_swing_is_soft_oil),
       cmocka_unit_test(it_is_never_softer_than_the_least),
       cmocka_unit_test(a_small_swing_says_nothing),
-      cmocka_unit_test(a_fast_swing_is_not_the_oil),
+      cmocka_unit_test(a_fast_swing_is_stiff_oil),
+      cmocka_unit_test(what_swings_as_its_mode_is_left),
       cmocka_unit_test(what_was_too_soft_stiffens_again),
       cmocka_unit_test(what_pushes_the_teeth_is_not_judged),
       cmocka_unit_test(the_weight_of_another_pose_is_no_swing),

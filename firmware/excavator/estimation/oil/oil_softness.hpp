@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Oil that is softer than the profile tells, as air in it makes it, seen by how the boom rings.
-/// The law then swings the boom slower than the slower mode should: its oil is taken for softer
-/// until the mode is as slow as what is seen, or nothing rings. What rings faster is something
-/// else, and stiffens again what was taken for softer.
+/// Oil that is softer or stiffer than the profile tells, seen by how the boom rings. A law that is
+/// made for another stiffness swings it: slower than its slower mode, where air in the oil makes it
+/// soft, faster where it is stiff. The oil is then taken for softer or stiffer until mode and swing
+/// agree, or nothing rings.
 
 namespace graben {
 
 /// State from cycle to cycle. As constructed the oil is as the profile tells.
 struct OilSoftness {
-  double share = 1.0;        ///< Of the told stiffness, kSoftOilLeast .. 1.
+  double share = 1.0;        ///< Of the told stiffness, kSoftOilLeast .. kStiffOilMost.
   double smooth_pa = 0.0;    ///< The boom's force over its cap's area, without what is faster.
   double smoother_pa = 0.0;  ///< The same once more: noise has no frequency of its own.
   double slow_pa = 0.0;      ///< That of the path and the pose.
