@@ -104,7 +104,9 @@ def main():
         with open(summary_path, encoding="utf-8") as stream:
             summary = json.load(stream)
         counts, moments = read_log(os.path.join(folder, "grade.log"), messages)
-    check_counts(counts, messages, moments[-1][0])
+    # What task Commission reads is sent by nobody here.
+    tried = ("DozerTry", "DozerWindow")
+    check_counts(counts, {number: m for number, m in messages.items() if m["name"] not in tried}, moments[-1][0])
     blade, design = Blade(profile["blade"]), Design(profile["grade"])
     errors, times = [], []
     for time, stroke, body, pitch in moments:

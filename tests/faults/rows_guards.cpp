@@ -182,9 +182,13 @@ void too_many_at_once(Trial<Kind>& trial) {
 }
 
 /// No real spool opens faster than control.spool_rate, whatever is asked for; three times as fast
-/// where it catches up with a duty. No duty rises faster than control.duty_rate.
+/// where it catches up with a duty. No duty rises faster than control.duty_rate, here the slowest
+/// that a profile may have: what leads a spool stays far below the usual one.
 template <class Kind>
 void opens_slowly(Trial<Kind>& trial) {
+  typename Kind::Scenery scenery = Kind::scenery_of(trial.seed());
+  scenery.machine.profile.control.duty_rate_ps = 10.0;
+  trial.set_up(scenery);
   auto& rig = *trial.rig;
   const double first = Kind::first_duty(rig.machine);
   const double most = 3.0 * (1.0 - first) * rig.machine.profile.control.spool_rate_ps * 0.01;

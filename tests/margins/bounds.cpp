@@ -26,16 +26,16 @@ struct Bound {
 };
 constexpr Bound kBounds[] = {
     {{Places::kPath, 0.05, 0}, {0.6, 2.0}, {0.015, 0.030}, 0.24},
-    {{Places::kPath, 0.05, 1}, {0.6, 2.0}, {0.015, 0.030}, 0.25},
-    {{Places::kPath, 0.05, 0}, {0.6, 2.0}, {0.040, 0.040}, 0.25},
-    {{Places::kPath, 0.05, 1}, {0.6, 2.0}, {0.040, 0.040}, 0.22},
+    {{Places::kPath, 0.05, 1}, {0.6, 2.0}, {0.015, 0.030}, 0.24},
+    {{Places::kPath, 0.05, 0}, {0.6, 2.0}, {0.040, 0.040}, 0.24},
+    {{Places::kPath, 0.05, 1}, {0.6, 2.0}, {0.040, 0.040}, 0.21},
     {{Places::kPath, 0.02, 0}, {0.6, 2.0}, {0.020, 0.030}, 0.21},
     {{Places::kPath, 0.02, 1}, {0.6, 1.4}, {0.020, 0.030}, 0.41},
-    {{Places::kPath, 0.02, 1}, {2.0, 2.0}, {0.020, 0.030}, 0.05},
-    {{Places::kPath, 0.0, 0}, {0.6, 1.4}, {0.030, 0.030}, 0.32},
+    {{Places::kPath, 0.02, 1}, {2.0, 2.0}, {0.020, 0.030}, 0.02},
+    {{Places::kPath, 0.0, 0}, {0.6, 1.4}, {0.030, 0.030}, 0.28},
     {{Places::kPath, 0.0, 0}, {1.0, 1.4}, {0.020, 0.030}, 0.08},
     {{Places::kPath, 0.0, 1}, {0.8, 1.0}, {0.020, 0.030}, 0.36},
-    {{Places::kCorners, 0.02, 0}, {0.6, 2.0}, {0.015, 0.030}, 0.05},
+    {{Places::kCorners, 0.02, 0}, {0.6, 2.0}, {0.015, 0.030}, 0.01},
     {{Places::kCorners, 0.02, 1}, {0.6, 1.4}, {0.015, 0.030}, 0.17},
 };
 
@@ -47,10 +47,10 @@ struct Allowed {
 constexpr int kRounding = 2;
 constexpr Allowed kAllowed[] = {
     {{Places::kPath, 0.02, 0}, 7},     {{Places::kPath, 0.02, 1}, 1},
-    {{Places::kPath, 0.0, 0}, 41},     {{Places::kPath, 0.0, 1}, 176},
-    {{Places::kCorners, 0.05, 0}, 48}, {{Places::kCorners, 0.05, 1}, 60},
-    {{Places::kCorners, 0.02, 1}, 1},  {{Places::kCorners, 0.0, 0}, 61},
-    {{Places::kCorners, 0.0, 1}, 189},
+    {{Places::kPath, 0.0, 0}, 41},     {{Places::kPath, 0.0, 1}, 186},
+    {{Places::kCorners, 0.05, 0}, 51}, {{Places::kCorners, 0.05, 1}, 64},
+    {{Places::kCorners, 0.02, 1}, 1},  {{Places::kCorners, 0.0, 0}, 81},
+    {{Places::kCorners, 0.0, 1}, 200},
 };
 
 bool same(const Block& a, const Block& b) {

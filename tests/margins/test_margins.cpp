@@ -120,7 +120,7 @@ TEST(a_duty_becomes_flow) {
 /// begins with so little that what grows meets no limit.
 double far_off(const LawInTime& law, const Discrete& truth, int from, int cycles) {
   Eigen::VectorXd state = Eigen::VectorXd::Zero(truth.a.rows());
-  state.head<2>() << 1e-7, -1e-7;
+  state.head<2>() << 1e-9, -1e-9;
   LawInTime::State held = LawInTime::State::Zero();
   double squares = 0.0;
   for (int n = 0; n < from + cycles; ++n) {

@@ -29,7 +29,7 @@ def programs() -> set[str]:
 
 def wanted_files(commands: set[str]) -> dict[str, int]:
     shipped = [f"machines/{path.relative_to(MACHINES)}" for kind in ("*.toml", "*.xml") for path in MACHINES.rglob(kind)]
-    shipped += ["designs/banked.xml", "designs/curved.xml"]
+    shipped += ["designs/banked.xml", "designs/crest.xml", "designs/curved.xml"]
     return {name: 0o755 if name.startswith(("./usr/bin/", "./usr/libexec/")) else 0o644 for name in (
         "./usr/bin/graben", *(f"./usr/libexec/graben/graben-{name}" for name in programs()),
         *(f"./usr/share/graben/{name}" for name in shipped),

@@ -14,6 +14,7 @@ OilDesign oil_design(const ExcavatorProfile& profile) {
   if (profile.foretells_joints()) {
     design.lag_s = 0.025;
     design.travel_ps = 4.0;
+    design.travel_noise_m = 5e-5;
   }
   return design;
 }
@@ -58,8 +59,11 @@ void weigh(const ExcavatorProfile& profile, const OilSeen& seen, EcuMode mode,
   state.payload_kg += kPayloadWeight * (measured_kg - state.payload_kg);
 }
 
-/// Nothing pushes the teeth, as the last cycle tells.
-bool are_teeth_free(const ExcavatorProfile& profile, const EstimationState& state) {
+/// Nothing pushes the teeth, as the last cycle tells, and what rings is not an angle of 20 ms ago.
+bool is_by_oil(const ExcavatorProfile& profile, const EstimationState& state) {
+  if (profile.foretells_joints()) {
+    return false;
+  }
   double links_kg = 0.0;
   for (const LinkMass& link : profile.oil.link) {
     links_kg += link.mass_kg;
@@ -93,7 +97,7 @@ void estimate_oil(const ExcavatorModel& machine, const OilGains& gains, const Ex
     weigh(profile, seen, mode, state);
     next_softness(seen.force_n[kBoom] / profile.geometry.cylinder[kBoom].cap_area_m2(),
                   state.modes.omega_radps[0],
-                  mode == EcuMode::kActive && seen.force_known && are_teeth_free(profile, state),
+                  mode == EcuMode::kActive && seen.force_known && is_by_oil(profile, state),
                   cycle.elapsed_s, state.softness);
     state.modes = oil_modes(profile.oil, profile.geometry, state.pose, state.load, state.payload_kg,
                             state.softness.share);
