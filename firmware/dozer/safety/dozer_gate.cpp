@@ -23,6 +23,9 @@ bool is_finite(const DozerCommand& wanted, const Changes& changes) {
   for (unsigned i = 0; i < kTrackCount; ++i) {
     finite = finite && std::isfinite(wanted.pump_ratio[i]) && std::isfinite(wanted.motor_ratio[i]);
   }
+  for (const double tried_ratio : wanted.tried_ratio) {
+    finite = finite && std::isfinite(tried_ratio);
+  }
   return finite;
 }
 

@@ -179,3 +179,30 @@ TEST(a_limit_that_is_no_number_is_refused) {
   assert_near(timeless.pump_ratio[kLeft], 0.0, 0.0);
   assert_near(timeless.motor_ratio[kLeft], 1.0, 0.0);
 }
+
+/// Duties that are tried go as they are, within 40 ms and their range; what is no number is sent as
+/// nothing, whatever it is.
+TEST(a_tried_duty_steps_and_leaves_no_opening) {
+  DozerCommand wanted;
+  wanted.tries = true;
+  wanted.opening = {0.9};
+  wanted.tried_ratio = {-0.5};
+  const Gated tried = let(wanted, at(0.5, 0.0, 1.0), kLong_s);
+  assert_int_equal(tried.fault, Fault::kNone);
+  assert_near(tried.duty_ratio[0], -0.5, 0.0);
+  assert_near(tried.state.opening[0], 0.0, 0.0);
+  const Gated soon = let(wanted, {}, 0.01);
+  assert_true(soon.duty_ratio[0] < -0.2 && soon.duty_ratio[0] > -0.5);
+  wanted.tried_ratio = {7.0};
+  assert_near(let(wanted, {}, kLong_s).duty_ratio[0], 1.0, 0.0);
+  for (const double wrong :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const bool tries : {true, false}) {
+      wanted.tries = tries;
+      wanted.tried_ratio = {wrong};
+      const Gated none = let(wanted, at(0.5, 0.25, 0.5), kLong_s);
+      assert_int_equal(none.fault, Fault::kCommandNotFinite);
+      assert_neutral(none);
+    }
+  }
+}

@@ -307,3 +307,32 @@ TEST(a_track_that_bends_asks_where_the_body_is_beside_it) {
     assert_true(said.faults.has(Fault::kPoseMissing) && said.faults.has(Fault::kSensorError));
   }
 }
+
+/// Task Commission goes by what was told to try lately, and by windows of the last second; no other
+/// task looks at it.
+TEST(what_is_to_be_tried_is_fresh_and_finite) {
+  DozerInputs inputs = complete_dozer_inputs(kNow);
+  const DozerTry lift = {TriedDrive::kLift, 0.25, 0.75};
+  inputs.tried = {lift, Validity::kValid, kNow};
+  inputs.window[0] = {{-0.5, 0.5, 0.25}, Validity::kValid, kNow - 900 * kMillisecondUs};
+  inputs.window[1] = {{-0.5, 0.5, 0.25}, Validity::kValid, kNow - 1100 * kMillisecondUs};
+  assert_int_equal(judged(inputs).tried.drive, TriedDrive::kNone);
+  assert_near(judged(inputs).window[0].most_mps, 0.0, 0.0);
+  inputs.driver.task.value = Task::kCommission;
+  const test::ValidatedDozer valid = judged(inputs);
+  assert_int_equal(valid.fault, Fault::kNone);
+  assert_int_equal(valid.tried.drive, TriedDrive::kLift);
+  assert_near(valid.tried.ratio, 0.25, 0.0);
+  assert_near(valid.window[0].most_mps, 0.25, 0.0);
+  assert_near(valid.window[1].most_mps, 0.0, 0.0);
+  const double no_number = std::numeric_limits<double>::quiet_NaN();
+  for (const DozerTry& wrong : {DozerTry{TriedDrive::kLift, no_number, 1.0},
+                                DozerTry{TriedDrive::kTracks, 0.25, no_number}}) {
+    inputs.tried.value = wrong;
+    const test::ValidatedDozer missing = judged(inputs);
+    assert_true(missing.faults.has(Fault::kOperatorMissing));
+    assert_int_equal(missing.tried.drive, TriedDrive::kNone);
+  }
+  inputs.tried = {lift, Validity::kValid, 0};
+  assert_true(judged(inputs).faults.has(Fault::kOperatorMissing));
+}

@@ -198,3 +198,12 @@ TEST(the_window_stays_where_it_was) {
     assert_near(tracks.way_m(), from_m + kWay.most_m - 0.25 * kTravelStops_s, 0.02);
   }
 }
+
+/// A place that was never begun stays so at rest, whatever is forgotten.
+TEST(rest_begins_nothing) {
+  for (const bool forgets : {false, true}) {
+    TravelGuardState state;
+    rest_travel(forgets, state);
+    assert_false(state.begun);
+  }
+}
