@@ -224,37 +224,6 @@ TEST(what_is_slow_is_learnt_from_in_the_air_alone) {
   }
 }
 
-/// What stands under a spool at its edge is a load's doing, or in the air its dead band's: that
-/// ends farther out, no farther than the spool has come.
-TEST(what_stands_in_the_air_moves_its_edge_out) {
-  Bench pressed;
-  pressed.extend.edge = 0.9;
-  pressed.work(4.0, 1.0, LearntFrom::kPlainMotion);
-  assert_near(pressed.valve.extend.edge, 0.0, 0.0);
-  Bench stands;
-  ValidDrive seen;
-  seen.stroke_m = stands.stroke_m;
-  constexpr double kOpening = 0.03;
-  seen.spool_ratio = kEdge + (1.0 - kEdge) * kOpening;
-  const auto wait = [&](double time_s, double asked_mps) {
-    for (double t_s = 0.0; t_s < time_s; t_s += kPeriod_s) {
-      next_learnt(stands.row, seen, {asked_mps, kOpening}, LearntFrom::kAnyMotion, kPeriod_s,
-                  stands.valve);
-    }
-    return stands.valve.extend.edge;
-  };
-  // What is asked for comes late, and steps of a stroke come seldom.
-  assert_near(wait(0.3, 0.006), 0.0, 0.0);
-  const double soon = wait(1.0, 0.006);
-  print_message("%.4f of the opening after a second\n", soon);
-  assert_true(soon > 0.004 && soon < 0.025);
-  assert_near(wait(9.0, 0.006), kOpening, 1e-3);
-  // Nothing is asked of it.
-  const double before = stands.valve.extend.edge;
-  seen.spool_ratio = kEdge + (1.0 - kEdge) * 0.06;
-  assert_true(wait(5.0, 0.001) - before < 0.01);
-}
-
 /// However far off a valve is, and whatever the sensors say.
 TEST(what_is_believed_stays_within_bounds) {
   for (const Bench::Side real : {Bench::Side{0.02, 1.0}, Bench::Side{0.33, 2.6}}) {

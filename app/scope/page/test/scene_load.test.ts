@@ -150,7 +150,7 @@ test('a trench in loam: the bucket fills and empties, and what it cut lies besid
     const fill = history.load!.at(time);
     assert.ok(fill >= 0 && fill < 0.7, `${fill} m3 at ${time}`);
     dumps += full && fill < 0.05 ? 1 : 0;
-    full = fill < 0.05 ? false : full || fill > 0.15;
+    full = fill < 0.05 ? false : full || fill > 0.1;
   }
   assert.ok(dumps >= 4 && dumps <= 12, `${dumps} dumps`);
 });
