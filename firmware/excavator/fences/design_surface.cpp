@@ -28,7 +28,7 @@ bool DesignSurface::cell_at(double x_m, double y_m, Cell& cell) const {
 }
 
 bool DesignSurface::height_at(double x_m, double y_m, double& height_m) const {
-  Cell cell{};
+  Cell cell;  // NOLINT(cppcoreguidelines-pro-type-member-init): cell_at() fills it.
   if (!cell_at(x_m, y_m, cell)) {
     return false;
   }
@@ -38,7 +38,7 @@ bool DesignSurface::height_at(double x_m, double y_m, double& height_m) const {
 
 SurfacePlace DesignSurface::at(const Eigen::Vector2d& place_m) const {
   SurfacePlace result;
-  Cell cell{};
+  Cell cell;  // NOLINT(cppcoreguidelines-pro-type-member-init): cell_at() fills it.
   result.known = cell_at(place_m.x(), place_m.y(), cell);
   if (result.known) {
     result.height_m = base_m + kUnit_m * cell.height();
