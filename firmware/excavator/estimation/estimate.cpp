@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/excavator/estimation/estimate.hpp"
 
+#include <algorithm>
+
 #include "firmware/excavator/estimation/load/assumed_load.hpp"
 #include "firmware/excavator/estimation/tuning.hpp"
 
@@ -59,17 +61,22 @@ void weigh(const ExcavatorProfile& profile, const OilSeen& seen, EcuMode mode,
   state.payload_kg += kPayloadWeight * (measured_kg - state.payload_kg);
 }
 
-/// Nothing pushes the teeth, as the last cycle tells, and what rings is not an angle of 20 ms ago.
-bool is_by_oil(const ExcavatorProfile& profile, const EstimationState& state) {
-  if (profile.foretells_joints()) {
-    return false;
-  }
+/// It moves, not only just, nothing has pushed the teeth lately, and what rings is not an angle of
+/// 20 ms ago.
+bool is_by_oil(const ExcavatorProfile& profile, bool active, double elapsed_s,
+               EstimationState& state) {
   double links_kg = 0.0;
   for (const LinkMass& link : profile.oil.link) {
     links_kg += link.mass_kg;
   }
   const TipLoad& tip = state.load_observer.told;
-  return tip.known && tip.force_n.norm() < kFreeTip * links_kg * kStandardGravity_mps2;
+  double& pushed_s = state.softness.pushed_s;
+  const bool pushed = tip.known && tip.force_n.norm() > kFreeTip * links_kg * kStandardGravity_mps2;
+  pushed_s = pushed ? kFreeAfter_s : std::max(0.0, pushed_s - elapsed_s);
+  if (!active) {
+    pushed_s = std::max(pushed_s, kFreeAfterStart_s);
+  }
+  return tip.known && pushed_s == 0.0 && !profile.foretells_joints();
 }
 
 void estimate_oil(const ExcavatorModel& machine, const OilGains& gains, const ExcavatorValid& valid,
@@ -95,10 +102,11 @@ void estimate_oil(const ExcavatorModel& machine, const OilGains& gains, const Ex
   const bool reached = state.pose.status == ReachStatus::kOk;
   if (reached) {
     weigh(profile, seen, mode, state);
-    next_softness(seen.force_n[kBoom] / profile.geometry.cylinder[kBoom].cap_area_m2(),
-                  state.modes.omega_radps[0],
-                  mode == EcuMode::kActive && seen.force_known && is_by_oil(profile, state),
-                  cycle.elapsed_s, state.softness);
+    next_softness(
+        seen.force_n[kBoom] / profile.geometry.cylinder[kBoom].cap_area_m2(),
+        state.modes.omega_radps[0],
+        seen.force_known && is_by_oil(profile, mode == EcuMode::kActive, cycle.elapsed_s, state),
+        cycle.elapsed_s, state.softness);
     state.modes = oil_modes(profile.oil, profile.geometry, state.pose, state.load, state.payload_kg,
                             state.softness.share);
   }

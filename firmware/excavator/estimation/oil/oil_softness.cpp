@@ -10,9 +10,10 @@ namespace graben {
 void next_softness(double pressure_pa, double omega_radps, bool judges, double elapsed_s,
                    OilSoftness& state) {
   if (!judges || !(elapsed_s > 0.0)) {
-    const double share = state.share;
+    const OilSoftness before = state;
     state = {};
-    state.share = share;
+    state.share = before.share;
+    state.pushed_s = before.pushed_s;
     state.smooth_pa = pressure_pa;
     state.smoother_pa = pressure_pa;
     state.slow_pa = pressure_pa;

@@ -10,6 +10,7 @@ namespace graben {
 /// State from cycle to cycle. As constructed the oil is as the profile tells.
 struct OilSoftness {
   double share = 1.0;        ///< Of the told stiffness, kSoftOilLeast .. kStiffOilMost.
+  double pushed_s = 0.0;     ///< For which it is not judged, since something has pushed or begun.
   double smooth_pa = 0.0;    ///< The boom's force over its cap's area, without what is faster.
   double smoother_pa = 0.0;  ///< The same once more: noise has no frequency of its own.
   double slow_pa = 0.0;      ///< That of the path and the pose.

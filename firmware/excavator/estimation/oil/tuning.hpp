@@ -47,7 +47,8 @@ inline constexpr double kOilFlowErrorMost_mps = 0.08;
 /// `sweep.py`: soil's max_error_true_m 65.8; x0.7 61.7, x1.3 64.7]
 inline constexpr double kOilHandOver_ps = 2.0;
 
-// Oil that is softer than told (oil_softness.cpp)
+// Oil that is softer than told (oil_softness.cpp). What was tried was tried without a time after
+// the start of a motion.
 
 /// Time constant, twice, without what is faster than the mode. [s; measured: `campaign dig --errors
 /// all --found oil=0.6 --draws 20`: 24 / 36 mm; 0.028 once, sensors' noise hides the frequency: 28
