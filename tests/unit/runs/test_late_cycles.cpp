@@ -44,12 +44,11 @@ struct Case {
 constexpr Case kCases[] = {{"excavator_22t", 0.5}, {"excavator_12t", 0.6}};
 
 /// More than in time: up to 3 mm, but where a spool that starts is led through its lag just then.
-/// Its duty, meant for 10 ms, then stands five times as long. Which of 38 places that is, any
-/// change of the control moves: of 632 places 70 ms apart 29 are beyond 3 mm, the worst two 28 and
-/// 23 mm.
+/// Its duty, meant for 10 ms, then stands five times as long; the lead's bound keeps that small
+/// (unbounded, of 632 places 70 ms apart the worst two were 28 and 23 mm).
 TEST(a_late_cycle_costs_little) {
   constexpr double kMost_m = 0.003;
-  constexpr double kMostLed_m = 0.03;
+  constexpr double kMostLed_m = 0.006;
   for (const Case& each : kCases) {
     const machines::SimulatedExcavator machine =
         machines::load_simulated_excavator(machines::find_profile(each.machine));
