@@ -22,7 +22,7 @@ inline constexpr double kLeadGivenUp = 5.0;
 inline constexpr double kLeadJudged_s = 2.0;
 /// Most that it adds. [-; measured: less than a dead band, or it changes a duty's sign: `campaign
 /// dig --draws 20`, boom 0.3 changes a second, unbounded 3.0, 0.13 0.6; spools that open in 15 ms
-/// and close in 50: 46 / 65 mm, unbounded 56 / 120]
+/// and close in 50: 41 / 75 mm, unbounded 56 / 120; of 80 ms 51 / 129, 46 / 82]
 inline constexpr double kLeadMost = 0.1;
 /// Square of a way below which the model stands, and says nothing. [-; chosen: 1 % of the travel;
 /// not tried]

@@ -106,7 +106,7 @@ inline constexpr double kStill_mps = 0.0005;
 /// come so far apart at 0.3 mm/s; not tried]
 inline constexpr double kStillStood_s = 0.3;
 /// How fast the edge is moved. [1/s; measured: `cells.py --map --speed 0.1`: 80 of 80 cells end,
-/// without 79; a frozen sensor is seen as soon]
+/// without 79; no other rate was tried]
 inline constexpr double kStillRate_ps = 0.02;
 
 }  // namespace graben
