@@ -58,14 +58,17 @@ ErrorFigures error_figures(const RunLog& run) {
   ErrorFigures figures;
   TimeMean square_m2;
   int count = 0;
-  double before_m = 0.0;
+  double near_since_s = kNone;
   for (std::size_t i = 0; i < error.value.size(); ++i) {
     const double off_m = std::abs(error.value[i]);
-    // On the way to the path it falls all the time.
-    const bool has_arrived =
-        error.time_s[i] >= run.start_s && off_m < kArrived_m && off_m >= before_m;
-    before_m = off_m;
-    if (count == 0 && !has_arrived) {
+    if (!(error.time_s[i] >= run.start_s && off_m < kArrived_m)) {
+      near_since_s = kNone;
+    } else if (!std::isfinite(near_since_s)) {
+      near_since_s = error.time_s[i];
+    }
+    // As PathProgress counts a run: an approach crosses the path, and its swing falls, before it
+    // has arrived.
+    if (count == 0 && !(error.time_s[i] - near_since_s >= kArrivedFor_s)) {
       continue;
     }
     figures.arrived_s = count == 0 ? error.time_s[i] : figures.arrived_s;

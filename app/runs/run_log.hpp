@@ -85,11 +85,13 @@ struct ComparedFigure {
 };
 
 /// Both runs in figures: times, errors with their moments, lambda, each limit's share. Of error and
-/// lambda counts what comes after the error has first stopped falling below kArrived_m: a way to
-/// the path is no error, and its start from rest no limit.
+/// lambda counts what comes after the error was first below kArrived_m for kArrivedFor_s, as in a
+/// run's own figures (PathProgress): a way to the path is no error, and its start from rest no
+/// limit.
 [[nodiscard]] std::vector<ComparedFigure> compared_figures(const RunLog& first,
                                                            const RunLog& second);
 inline constexpr double kArrived_m = 0.02;
+inline constexpr double kArrivedFor_s = 0.5;
 
 /// What makes the two no runs of the same thing, a sentence each: another profile (named by
 /// `profile_name`), another task, another task program by its steps and where they begin, a run

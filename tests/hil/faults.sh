@@ -29,6 +29,7 @@ wait_until 5 ecu_sends vcan0 || fail "no frame of the ECU: $(cat "$OUT/ecu.err")
 graben plant --can vcan0 --profile excavator_22t.toml --operator shifts \
   --summary "$OUT/summary.json" &
 plant=$!
+machine_keeps_time vcan0 "$plant"
 
 begin 26 # a bus-off, as the driver tells of it
 cansend vcan0 20000040#0000000000000000

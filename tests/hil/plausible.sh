@@ -19,9 +19,7 @@ run_case() {
   graben plant --can "$interface" --profile "$profile" --operator "$operator" --seconds "$seconds" \
     ${program:+--task "$program"} $options --summary "$OUT/$interface.json" 2>>"$OUT/$interface.err" &
   plant=$!
-  # From its first cycle on the machine keeps its time, whatever processes begin beside it.
-  candump -T 5000 -n 1 "$interface,0CFF2781:1FFFFFFF" >/dev/null
-  chrt -f -p 10 "$plant"
+  machine_keeps_time "$interface" "$plant"
   if [ "$command" != - ]; then
     sleep "${command%% *}"
     cansend "$interface" 7F0#01
