@@ -48,6 +48,7 @@ struct SensorErrors {
   double second_swing_bias_rad = 0.0;
   std::array<double, 2> second_age_s{};  ///< Least and most, of what they show.
   std::array<double, kAxisCount> stroke_zero_m{};
+  std::array<double, kAxisCount> stroke_age_s{};  ///< Of what it shows.
   /// Of each drive's two chambers; of the swing cap is the left port, rod the right one.
   std::array<double, kDriveCount> cap_zero_pa{};
   std::array<double, kDriveCount> rod_zero_pa{};

@@ -65,7 +65,11 @@ double SensorModel::pressure_pa(double true_pressure_pa, double bias_pa) {
 
 FaultySensors::FaultySensors(const ExcavatorPlantProfile& profile)
     : sensors_(profile.sensors,
-               profile.sensor_errors ? std::optional(profile.seed) : std::nullopt) {}
+               profile.sensor_errors ? std::optional(profile.seed) : std::nullopt) {
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    stroke_[i] = FaultyReading(profile.sensors.stroke_age_s[i]);
+  }
+}
 
 dbc::Physical FaultySensors::stroke(std::size_t axis, double true_stroke_m,
                                     const StrokeFault& fault) {

@@ -95,6 +95,10 @@ struct ReadingFault {
 /// A sensor that can fail. A reading is taken once a cycle of 10 ms.
 class FaultyReading {
  public:
+  FaultyReading() = default;
+  /// Of a sound sensor that shows what was `age_s` ago.
+  explicit FaultyReading(double age_s) : sound_age_s_(age_s), age_s_(age_s) {}
+
   [[nodiscard]] dbc::Physical show(double reading, const ReadingFault& fault) {
     reading = late(reading, fault.lie.later);
     drift_ = fault.drift_ps == 0.0 ? 0.0 : drift_ + kCycle_s * fault.drift_ps;
@@ -117,8 +121,10 @@ class FaultyReading {
   /// As it was by now so long ago.
   double late(double reading, double later) {
     if (later == 0.0) {
+      age_s_ = sound_age_s_;
+    }
+    if (age_s_ == 0.0 && later == 0.0) {
       past_.clear();
-      age_s_ = 0.0;
       return reading;
     }
     past_.push_back(reading);
@@ -133,6 +139,7 @@ class FaultyReading {
   double shown_ = 0.0;  ///< Last: a stuck sensor goes on showing it.
   double drift_ = 0.0;
   double from_ = 0.0;
+  double sound_age_s_ = 0.0;
   double age_s_ = 0.0;
   std::vector<double> past_;  ///< Readings since it began to be late.
   Random random_{1, Draw::kSensorNoise};

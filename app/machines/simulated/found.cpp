@@ -97,6 +97,9 @@ void make_as_found(plant::ExcavatorPlantProfile& plant, const FoundRanges& range
   for (double& zero_m : plant.sensors.stroke_zero_m) {
     zero_m += finding.around(told.stroke_zero_more_m, 0.0, 0.0);
   }
+  for (double& age_s : plant.sensors.stroke_age_s) {
+    age_s = finding.around(told.stroke_age_s, age_s, 0.0);
+  }
 }
 
 }  // namespace graben::machines

@@ -58,6 +58,7 @@ struct Found {
   std::optional<Told> piston_leak_factor;
   std::optional<Told> dead_band_more_ratio;  ///< Of the travel.
   std::optional<Told> stroke_zero_more_m;    ///< Shown too much.
+  std::optional<Told> stroke_age_s;          ///< A stroke shows what was so long ago.
   std::optional<Told> bypass_leak_factor;    ///< What a closed bypass still lets through.
 };
 

@@ -277,6 +277,7 @@ TEST(what_wears_comes_on_top) {
   scenario.found.piston_leak_factor = 3.0;
   scenario.found.dead_band_more_ratio = 0.02;
   scenario.found.stroke_zero_more_m = -0.005;
+  scenario.found.stroke_age_s = 0.03;
   const plant::ExcavatorPlantProfile plant = arranged(nominal(), scenario).plant;
   const plant::ExcavatorPlantProfile plain = plant_of(Errors::kAll, 7);
   assert_near(plant.piston_leak_m3pspa, 3.0 * plain.piston_leak_m3pspa, 1e-20);
@@ -286,6 +287,7 @@ TEST(what_wears_comes_on_top) {
     assert_near(plant.spool[i].extend.deadband_ratio, plain.spool[i].extend.deadband_ratio + 0.02,
                 1e-12);
     assert_near(plant.sensors.stroke_zero_m[i], plain.sensors.stroke_zero_m[i] - 0.005, 1e-12);
+    assert_near(plant.sensors.stroke_age_s[i], 0.03, 0.0);
     assert_near(plant.spool[i].time_constant_s, plain.spool[i].time_constant_s, 0.0);
   }
 }

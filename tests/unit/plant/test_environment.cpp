@@ -161,6 +161,19 @@ TEST(a_spool_waits_its_dead_time) {
 }
 
 /// Over many seeds the bias fills its range evenly; the noise has its standard deviation.
+/// Each cycle's reading, 0.1 m/s: a sound sensor that is told to be old shows what was 25 ms ago.
+TEST(a_stroke_can_be_old) {
+  plant::ExcavatorPlantProfile profile;
+  profile.sensors.stroke_age_s[kArm] = 0.025;
+  FaultySensors sensors(profile);
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    const double at_m = 0.5 + 0.001 * cycle;
+    const double shown_m = sensors.stroke(kArm, at_m, {}).value;
+    assert_near(shown_m, std::max(0.5, at_m - 0.0025), 1e-12);
+    assert_near(sensors.stroke(kBoom, at_m, {}).value, at_m, 1e-12);
+  }
+}
+
 TEST(sensors_err_within_their_bounds) {
   const SensorErrors errors = machine_22t().sensors;
   constexpr int kSeeds = 2000;
