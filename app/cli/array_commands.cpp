@@ -143,6 +143,11 @@ void show_progress(const ProgressCommand& options) {
   }
 }
 
+struct MergeOptions {
+  std::vector<std::string> from;
+  std::string summary;
+};
+
 }  // namespace
 
 void add_array_options(CLI::App& command, ArrayOptions& options) {
@@ -232,6 +237,19 @@ void add_campaign_collect(CLI::App& campaign, int& status) {
   add_examples(*command, {"campaign collect out/draws.csv"});
   command->callback([summary, &status] {
     status = guarded("campaign collect", [&] { fmt::print("{}", collect_array(*summary)); });
+  });
+}
+
+void add_campaign_merge(CLI::App& campaign, int& status) {
+  auto options = std::make_shared<MergeOptions>();
+  CLI::App* command = campaign.add_subcommand("merge", "Shards of one campaign into one file");
+  command->add_option("files", options->from, "CSV files of the shards")->required();
+  command->add_option("--summary", options->summary, "CSV to write")->required();
+  add_examples(*command, {"campaign merge shard1.csv shard2.csv --summary all.csv"});
+  command->callback([options, &status] {
+    status = guarded("campaign merge", [&] {
+      fmt::print("{}", runs::merge_campaigns(options->from, options->summary));
+    });
   });
 }
 

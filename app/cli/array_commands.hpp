@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Campaigns on Slurm, as commands: `campaign ... --slurm`, `campaign progress`, `campaign
-/// collect`.
+/// Campaigns on Slurm and in shards, as commands: `campaign ... --slurm`, `campaign merge`,
+/// `campaign progress`, `campaign collect`.
 
 #include <functional>
 
@@ -26,5 +26,6 @@ void submit_campaign(const CLI::App& command, const runs::CampaignOptions& campa
 
 void add_campaign_progress(CLI::App& campaign, int& status);
 void add_campaign_collect(CLI::App& campaign, int& status);
+void add_campaign_merge(CLI::App& campaign, int& status);
 
 }  // namespace graben::cli

@@ -71,16 +71,16 @@ void run_task(const TaskCommand& options) {
   if (!options.scenario.start.empty()) {
     assert_radians("--start: attitude", options.scenario.start.back());
   }
-  const machines::SimulatedExcavator machine =
+  machines::SimulatedExcavator machine =
       runs::arranged(machines::load_simulated_excavator(machines::find_profile(options.profile),
                                                         options.simulated),
                      options.scenario);
   const machines::TaskFile task = runs::planned_task(options.scenario, machine.profile);
   runs::AutodigOptions run =
       runs::usual_run(options.scenario, machine.profile, task.result.program);
-  run.speed_override_ratio =
-      speed_with(machine, runs::needed_drives(machine.profile, task.result.program),
-                 options.unknown_drives, run.speed_override_ratio);
+  const std::string slow =
+      demand_known(machine, machines::needed_drives(machine.profile, task.result.program),
+                   options.unknown_drives);
   run.faults = options.faults;
   run.most_s = options.most_s;
   const fs::path out(options.out);
@@ -100,9 +100,10 @@ void run_task(const TaskCommand& options) {
   summary.raised_max_m = machines::most_raised_m(task.request, task.result);
   reports::write_autodig_report(
       {report, scope::scope_page()}, run.log_file, machine, task, result, summary,
-      fmt::format("{} | task {} | {} | speed {:.0f} %{}", runs::machine_text(machine),
+      fmt::format("{} | task {} | {} | speed {:.0f} %{}{}", runs::machine_text(machine),
                   options.scenario.task, runs::machine_text(options.scenario),
-                  run.speed_override_ratio * 100.0, runs::told_faults_subtitle(options.faults)));
+                  run.speed_override_ratio * 100.0, slow.empty() ? "" : " | " + slow,
+                  runs::told_faults_subtitle(options.faults)));
   if (!options.summary.empty()) {
     reports::write_autodig_summary(options.summary, summary);
   }

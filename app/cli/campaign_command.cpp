@@ -23,18 +23,21 @@
 namespace graben::cli {
 namespace {
 
-struct DigCampaign {
+/// Of what has a task done.
+struct TaskCampaign {
   runs::CampaignOptions campaign;
   ArrayOptions array;
+  std::string unknown_drives;  ///< See demand_known().
+};
+
+struct DigCampaign : TaskCampaign {
   runs::DigScenario scenario;
   machines::SimulatedChoice simulated;
   std::string profile = "excavator_22t";
   double speed_override_ratio = 1.0;
 };
 
-struct GradeCampaign {
-  runs::CampaignOptions campaign;
-  ArrayOptions array;
+struct GradeCampaign : TaskCampaign {
   runs::GradeScenario scenario;
   design::DesignSource design;
   std::string profile = "dozer_9t";
@@ -48,17 +51,13 @@ struct IdentifyCampaign {
   double speed_override_ratio = 1.0;
 };
 
-struct FenceCampaign {
-  runs::CampaignOptions campaign;
-  ArrayOptions array;
+struct FenceCampaign : TaskCampaign {
   machines::SimulatedChoice simulated;
   std::string profile = "excavator_12t";
   std::string errors = "all";
 };
 
-struct AssistCampaign {
-  runs::CampaignOptions campaign;
-  ArrayOptions array;
+struct AssistCampaign : TaskCampaign {
   machines::SimulatedChoice simulated;
   std::string profile = "excavator_22t";
   std::string errors = "all";
@@ -66,17 +65,10 @@ struct AssistCampaign {
   bool surfaces = false;
 };
 
-struct AutodigCampaign {
-  runs::CampaignOptions campaign;
-  ArrayOptions array;
+struct AutodigCampaign : TaskCampaign {
   runs::TaskScenario scenario;
   machines::SimulatedChoice simulated;
   std::string profile = "excavator_12t";
-};
-
-struct MergeOptions {
-  std::vector<std::string> from;
-  std::string summary;
 };
 
 void add_campaign_options(CLI::App& command, runs::CampaignOptions& options) {
@@ -91,6 +83,11 @@ void add_campaign_options(CLI::App& command, runs::CampaignOptions& options) {
   command.add_option("--summary", options.summary, "CSV, a row for each draw")->required();
   command.add_option("--jobs", options.jobs, "Threads, 1 .. 256; all cores unless told")
       ->check(whole_number_between(1, 256));
+}
+
+void add_task_campaign(CLI::App& command, TaskCampaign& options) {
+  add_campaign_options(command, options.campaign);
+  add_unknown_drives_option(command, options.unknown_drives);
 }
 
 /// Runs one with a progress bar and prints what came of it; `signal`: what ended it early.
@@ -136,11 +133,26 @@ void on_callback(CLI::App& command, const std::shared_ptr<Options>& options, int
   });
 }
 
+template <class Campaign>
+machines::SimulatedExcavator known_excavator(const Campaign& options,
+                                             const machines::NeededDrives& needed) {
+  machines::SimulatedExcavator machine = machines::load_simulated_excavator(
+      machines::find_profile(options.profile), options.simulated);
+  demand_known(machine, needed, options.unknown_drives);
+  return machine;
+}
+
+machines::SimulatedDozer known_dozer(const GradeCampaign& options) {
+  machines::SimulatedDozer machine =
+      machines::load_simulated_dozer(machines::find_profile(options.profile));
+  demand_known(machine, options.unknown_drives);
+  return machine;
+}
+
 runs::CampaignOutcome campaign_dig(const DigCampaign& options,
                                    const runs::CampaignOptions& campaign,
                                    const runs::Progress& progress) {
-  const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
-      machines::find_profile(options.profile), options.simulated);
+  const auto nominal = known_excavator(options, machines::kCylinders);
   return runs::campaign_dig(campaign, nominal, options.scenario, options.speed_override_ratio,
                             progress);
 }
@@ -148,17 +160,14 @@ runs::CampaignOutcome campaign_dig(const DigCampaign& options,
 runs::CampaignOutcome campaign_grade(const GradeCampaign& options,
                                      const runs::CampaignOptions& campaign,
                                      const runs::Progress& progress) {
-  const Designed nominal = designed(
-      machines::load_simulated_dozer(machines::find_profile(options.profile)), options.design);
+  const Designed nominal = designed(known_dozer(options), options.design);
   return runs::campaign_grade(campaign, nominal.machine, options.scenario, progress);
 }
 
 runs::CampaignOutcome campaign_designs(const GradeCampaign& options,
                                        const runs::CampaignOptions& campaign,
                                        const runs::Progress& progress) {
-  const machines::SimulatedDozer nominal =
-      machines::load_simulated_dozer(machines::find_profile(options.profile));
-  return runs::campaign_designs(campaign, nominal, options.scenario, progress);
+  return runs::campaign_designs(campaign, known_dozer(options), options.scenario, progress);
 }
 
 runs::CampaignOutcome campaign_identify(const IdentifyCampaign& options,
@@ -181,16 +190,17 @@ runs::CampaignOutcome campaign_identify(const IdentifyCampaign& options,
 runs::CampaignOutcome campaign_fences(const FenceCampaign& options,
                                       const runs::CampaignOptions& campaign,
                                       const runs::Progress& progress) {
-  const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
-      machines::find_profile(options.profile), options.simulated);
+  const auto nominal = known_excavator(options, machines::kEveryDrive);
   return runs::campaign_fences(campaign, nominal, options.errors, progress);
 }
 
 runs::CampaignOutcome campaign_autodig(const AutodigCampaign& options,
                                        const runs::CampaignOptions& campaign,
                                        const runs::Progress& progress) {
-  const machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
+  machines::SimulatedExcavator nominal = machines::load_simulated_excavator(
       machines::find_profile(options.profile), options.simulated);
+  const TaskProgram program = runs::planned_task(options.scenario, nominal.profile).result.program;
+  demand_known(nominal, machines::needed_drives(nominal.profile, program), options.unknown_drives);
   return runs::campaign_autodig(campaign, nominal, options.scenario, progress);
 }
 
@@ -200,7 +210,7 @@ void add_campaign_dig(CLI::App& campaign, int& status) {
       "dig", "Many draws of what the controller does not know; goes on where it was interrupted");
   add_profile_option(*command, options->profile);
   options->campaign.draws = 200;
-  add_campaign_options(*command, options->campaign);
+  add_task_campaign(*command, *options);
   add_override_option(*command, options->speed_override_ratio);
   options->scenario.errors = "all";
   add_simulated_options(*command, options->simulated);
@@ -219,7 +229,7 @@ void add_campaign_grade(CLI::App& campaign, int& status) {
       "Many draws of a dozer that its controller does not quite know; goes on as dig does");
   add_profile_option(*command, options->profile);
   options->campaign.draws = 100;
-  add_campaign_options(*command, options->campaign);
+  add_task_campaign(*command, *options);
   add_design_options(*command, options->design);
   options->scenario.errors = "all";
   add_speed_options(*command, options->scenario);
@@ -239,7 +249,7 @@ void add_campaign_designs(CLI::App& campaign, int& status) {
       "within grade.tolerance; goes on as dig does");
   add_profile_option(*command, options->profile);
   options->campaign.draws = 160;
-  add_campaign_options(*command, options->campaign);
+  add_task_campaign(*command, *options);
   add_speed_options(*command, options->scenario);
   add_engine_option(*command, options->scenario);
   add_ground_options(*command, options->scenario);
@@ -258,14 +268,12 @@ void add_campaign_ground(CLI::App& campaign, int& status) {
                   runs::ground_cells()));
   add_profile_option(*command, options->profile);
   options->campaign.draws = 40 * runs::ground_cells();
-  add_campaign_options(*command, options->campaign);
+  add_task_campaign(*command, *options);
   add_examples(*command, {"campaign ground --draws 120 --summary out/ground.csv"});
   on_callback(*command, options, status,
               [](const GradeCampaign& of, const runs::CampaignOptions& chosen,
                  const runs::Progress& progress) {
-                return runs::campaign_ground(
-                    chosen, machines::load_simulated_dozer(machines::find_profile(of.profile)),
-                    progress);
+                return runs::campaign_ground(chosen, known_dozer(of), progress);
               });
 }
 
@@ -295,7 +303,7 @@ void add_campaign_fences(CLI::App& campaign, int& status) {
       "how far any true point of the machine was beyond one");
   add_profile_option(*command, options->profile);
   options->campaign.draws = 1000;
-  add_campaign_options(*command, options->campaign);
+  add_task_campaign(*command, *options);
   command
       ->add_option("--errors", options->errors,
                    "What the controller does not know, as in campaign dig")
@@ -318,7 +326,7 @@ void add_campaign_assist(CLI::App& campaign, int& status) {
           usual.cells(), usual.designs(), runs::kLeverRecords.size()));
   add_profile_option(*command, options->profile);
   options->campaign.draws = 40 * usual.cells();
-  add_campaign_options(*command, options->campaign);
+  add_task_campaign(*command, *options);
   command
       ->add_option("--errors", options->errors,
                    "What the controller does not know, as in campaign dig")
@@ -335,8 +343,7 @@ void add_campaign_assist(CLI::App& campaign, int& status) {
   on_callback(*command, options, status,
               [](const AssistCampaign& of, const runs::CampaignOptions& chosen,
                  const runs::Progress& progress) {
-                const machines::SimulatedExcavator machine = machines::load_simulated_excavator(
-                    machines::find_profile(of.profile), of.simulated);
+                const auto machine = known_excavator(of, machines::kCylinders);
                 runs::AssistTrial trial{of.errors, !of.unmarked, {}};
                 if (of.surfaces) {
                   trial.grounds = runs::assist_grounds(machine.profile);
@@ -352,25 +359,12 @@ void add_campaign_autodig(CLI::App& campaign, int& status) {
       "autodig", "Many draws of a task, also in soil; goes on where it was interrupted");
   add_profile_option(*command, options->profile);
   options->campaign.draws = 40;
-  add_campaign_options(*command, options->campaign);
+  add_task_campaign(*command, *options);
   options->scenario.errors = "all";
   add_simulated_options(*command, options->simulated);
   add_task_options(*command, options->scenario);
   add_examples(*command, {"campaign autodig --task trench --draws 20 --summary out/trench.csv"});
   on_callback(*command, options, status, campaign_autodig);
-}
-
-void add_campaign_merge(CLI::App& campaign, int& status) {
-  auto options = std::make_shared<MergeOptions>();
-  CLI::App* command = campaign.add_subcommand("merge", "Shards of one campaign into one file");
-  command->add_option("files", options->from, "CSV files of the shards")->required();
-  command->add_option("--summary", options->summary, "CSV to write")->required();
-  add_examples(*command, {"campaign merge shard1.csv shard2.csv --summary all.csv"});
-  command->callback([options, &status] {
-    status = guarded("campaign merge", [&] {
-      fmt::print("{}", runs::merge_campaigns(options->from, options->summary));
-    });
-  });
 }
 
 }  // namespace

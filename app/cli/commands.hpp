@@ -55,7 +55,7 @@ struct TaskCommand {
   std::string summary;
   std::vector<std::string> faults;
   std::optional<double> most_s;
-  std::string unknown_drives;  ///< See speed_with().
+  std::string unknown_drives;  ///< See demand_known().
 };
 
 /// Runs it, writes log, report and summary, prints the figures. Throws std::runtime_error where the

@@ -40,7 +40,7 @@ struct DigCommand {
   bool random_start = false;
   std::uint64_t seed = 1;
   double speed = 1.0;
-  std::string unknown_drives;  ///< See speed_with().
+  std::string unknown_drives;  ///< See demand_known().
   std::optional<double> loops;
   std::vector<std::string> figures;
   std::vector<std::string> faults;
@@ -89,15 +89,15 @@ const char* end_text(runs::DigEnd end) {
 void dig(const DigCommand& options) {
   runs::DigScenario scenario = options.scenario;
   scenario.scenario.seed = options.seed;
-  const machines::SimulatedExcavator machine = runs::arranged(
+  machines::SimulatedExcavator machine = runs::arranged(
       machines::load_simulated_excavator(
           machines::find_profile(options.profile.value_or("excavator_22t")), options.simulated),
       scenario);
   runs::DigOptions run_options = runs::usual_run(machine, scenario);
   run_options.start_strokes_m =
       start_strokes(options, machine.profile).value_or(run_options.start_strokes_m);
-  run_options.speed_override_ratio =
-      speed_with(machine, runs::kCylinders, options.unknown_drives, options.speed);
+  const std::string slow = demand_known(machine, machines::kCylinders, options.unknown_drives);
+  run_options.speed_override_ratio = options.speed;
   run_options.loops = options.loops.value_or(run_options.loops);
   run_options.faults = options.faults;
   const std::filesystem::path out(options.out);
@@ -123,11 +123,11 @@ void dig(const DigCommand& options) {
   const runs::RunFigures figures = runs::figures_of(summary);
   reports::write_dig_report(
       {report, scope::scope_page()}, run_options.log_file, machine, result, summary,
-      fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %{}",
+      fmt::format("{} | {} | start strokes {:.3f}, {:.3f}, {:.3f} m | speed {:.0f} %{}{}",
                   runs::machine_text(machine), runs::scenario_text(scenario),
                   run_options.start_strokes_m[0], run_options.start_strokes_m[1],
                   run_options.start_strokes_m[2], options.speed * 100.0,
-                  runs::told_faults_subtitle(options.faults)));
+                  slow.empty() ? "" : " | " + slow, runs::told_faults_subtitle(options.faults)));
   if (!options.summary.empty()) {
     reports::write_summary(options.summary, figures);
   }

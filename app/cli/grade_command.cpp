@@ -43,7 +43,7 @@ struct GradeCommand {
   std::vector<std::string> figures;
   std::vector<std::string> faults;
   std::optional<double> most_s;
-  std::string unknown_drives;  ///< See speed_with().
+  std::string unknown_drives;  ///< See demand_known().
 };
 
 std::string end_text(const runs::GradeResult& result) {
@@ -91,12 +91,12 @@ GradeCommand with_speed_of_figures(GradeCommand options) {
 void grade(const GradeCommand& told) {
   const GradeCommand options = with_speed_of_figures(told);
   const runs::GradeScenario& scenario = options.scenario;
-  const auto [machine, line] = machine_of(options);
+  auto [machine, line] = machine_of(options);
   const std::filesystem::path out(options.out);
   runs::GradeOptions run;
   run.faults = options.faults;
   run.most_s = options.most_s;
-  run.speed_override_ratio = speed_with(machine, options.unknown_drives, 1.0);
+  const std::string slow = demand_known(machine, options.unknown_drives);
   const std::filesystem::path report = out / "grade.html";
   run.log_file = options.log.empty() ? out / "grade.log" : std::filesystem::path(options.log);
   const std::filesystem::path design = out / "design.txt";
@@ -128,7 +128,7 @@ void grade(const GradeCommand& told) {
   summary.limit_share = runs::logged_limit_shares(run.log_file);
   const runs::RunFigures figures = runs::headed_figures(summary);
   reports::write_grade_report({report, scope::scope_page()}, run.log_file, machine, result, summary,
-                              subtitle_of(options, machine));
+                              subtitle_of(options, machine) + (slow.empty() ? "" : " | " + slow));
   if (!options.summary.empty()) {
     reports::write_summary(options.summary, figures);
   }
@@ -162,8 +162,8 @@ void grade(const GradeCommand& told) {
 }
 
 /// Where speeds are looked for, none can be taken off.
-void refuse_unknown(const machines::SimulatedDozer& machine) {
-  static_cast<void>(speed_with(machine, "", 1.0));
+void demand_every_drive(machines::SimulatedDozer& machine) {
+  static_cast<void>(demand_known(machine, std::string()));
 }
 
 /// Fastest speed without the controller's bound.
@@ -171,8 +171,8 @@ void search(const GradeCommand& options) {
   if (options.scenario.speed_mode != "constant") {
     throw std::runtime_error("--within looks for a constant speed: it needs --speed-mode constant");
   }
-  const machines::SimulatedDozer machine = machine_of(options).machine;
-  refuse_unknown(machine);
+  machines::SimulatedDozer machine = machine_of(options).machine;
+  demand_every_drive(machine);
   make_folder_of(options.summary);
   runs::FastestSpeed result;
   {
@@ -202,9 +202,9 @@ void compare(const GradeCommand& options) {
   if (options.scenario.errors == "all" && !options.seed) {
     throw std::runtime_error("--errors all draws the errors: it needs --seed");
   }
-  const machines::SimulatedDozer machine =
+  machines::SimulatedDozer machine =
       machines::load_simulated_dozer(machines::find_profile(options.profile));
-  refuse_unknown(machine);
+  demand_every_drive(machine);
   std::vector<runs::SpeedRow> rows;
   {
     ProgressBar bar("grade");

@@ -266,6 +266,10 @@ void add_override_option(CLI::App& command, double& speed_override_ratio) {
       ->capture_default_str();
 }
 
+namespace {
+constexpr const char* kSlow = "slow";
+}  // namespace
+
 void add_unknown_drives_option(CLI::App& command, std::string& how) {
   command
       .add_option(
@@ -273,42 +277,32 @@ void add_unknown_drives_option(CLI::App& command, std::string& how) {
           fmt::format("slow: where the profile is from `graben identify` and the task needs "
                       "drives that were not commissioned, at {:.0f} % of the speed; "
                       "refused unless told",
-                      100.0 * kUnknownSpeed))
-      ->check(one_of({"slow"}));
+                      100.0 * machines::kUnknownSpeed))
+      ->check(one_of({kSlow}));
 }
 
 namespace {
 
-/// The speed of a task of a machine whose drives are `unknown`, as a list in words.
-double speed_of_unknown(const std::string& name, const std::string& unknown, const std::string& how,
-                        double speed_override_ratio) {
-  if (unknown.empty()) {
-    return speed_override_ratio;
+machines::UnknownTask told(const std::string& how) {
+  return how == kSlow ? machines::UnknownTask::kSlow : machines::UnknownTask::kRefused;
+}
+
+std::string printed(const std::string& notice) {
+  if (!notice.empty()) {
+    fmt::print("{}\n", notice);
   }
-  if (how.empty()) {
-    throw std::runtime_error(fmt::format(
-        "{}: needs drives that were not commissioned: {}; commission and identify them, "
-        "or --unknown-drives slow tries it slowly",
-        name, unknown));
-  }
-  fmt::print("not commissioned: {}: at {:.0f} % of the speed\n", unknown, 100.0 * kUnknownSpeed);
-  return kUnknownSpeed * speed_override_ratio;
+  return notice;
 }
 
 }  // namespace
 
-double speed_with(const machines::ExcavatorMachine& machine, const runs::NeededDrives& needed,
-                  const std::string& how, double speed_override_ratio) {
-  return speed_of_unknown(machine.name, runs::unknown_drives(machine, needed), how,
-                          speed_override_ratio);
+std::string demand_known(machines::ExcavatorMachine& machine, const machines::NeededDrives& needed,
+                         const std::string& how) {
+  return printed(machines::demand_known(machine, needed, told(how)));
 }
 
-double speed_with(const machines::DozerMachine& machine, const std::string& how,
-                  double speed_override_ratio) {
-  const std::vector<std::string> unknown =
-      machines::unknown_drives(machine.driven, machine.profile.tilt.present);
-  return speed_of_unknown(machine.name, fmt::format("{}", fmt::join(unknown, "; ")), how,
-                          speed_override_ratio);
+std::string demand_known(machines::DozerMachine& machine, const std::string& how) {
+  return printed(machines::demand_known(machine, told(how)));
 }
 
 void add_figure_option(CLI::App& command, std::vector<std::string>& figures,

@@ -12,7 +12,7 @@
 #include "app/design/design_source.hpp"
 #include "app/machines/dozer_file.hpp"
 #include "app/machines/simulated/simulation_file.hpp"
-#include "app/runs/needed_drives.hpp"
+#include "app/machines/unknown_drives.hpp"
 #include "app/runs/scenarios.hpp"
 
 namespace graben::cli {
@@ -87,20 +87,15 @@ void add_seconds_option(CLI::App& command, std::optional<double>& most_s, const 
 /// Adds --speed, the operator's override.
 void add_override_option(CLI::App& command, double& speed_override_ratio);
 
-/// Of the speed, with drives that were not commissioned.
-inline constexpr double kUnknownSpeed = 0.3;
-
-/// `how` stays empty unless told.
+/// Adds --unknown-drives, of every command that has a task done; `how` stays empty unless told.
 void add_unknown_drives_option(CLI::App& command, std::string& how);
 
-/// The speed override for a task that needs these drives: as told, or slow and said where some of
-/// them were not commissioned. Throws std::runtime_error, which names them, unless `how` allows it.
-[[nodiscard]] double speed_with(const machines::ExcavatorMachine& machine,
-                                const runs::NeededDrives& needed, const std::string& how,
-                                double speed_override_ratio);
-/// The same of a dozer's task, which needs every drive there is.
-[[nodiscard]] double speed_with(const machines::DozerMachine& machine, const std::string& how,
-                                double speed_override_ratio);
+/// machines::demand_known() for a task that is to be tried as `how` says. What it says is printed
+/// and returned.
+std::string demand_known(machines::ExcavatorMachine& machine, const machines::NeededDrives& needed,
+                         const std::string& how);
+std::string demand_known(machines::DozerMachine& machine, const std::string& how);
+
 /// Names of all errors that an excavator's controller can have.
 [[nodiscard]] CLI::Validator error_name();
 [[nodiscard]] CLI::Validator soil_name();

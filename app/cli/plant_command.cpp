@@ -33,6 +33,7 @@ struct PlantCommand {
   std::optional<std::string> task;  ///< Of the player `program`, like its number.
   std::optional<int> task_number;
   std::string summary;
+  std::string unknown_drives;  ///< See demand_known().
 };
 
 [[noreturn]] void refuse(const std::string& option, const char* kind) {
@@ -60,8 +61,21 @@ runs::Player player_of(const std::string& name, machines::MachineKind kind) {
                              : runs::Player::kTask;
 }
 
+/// A task that the operator will ask for. How fast it is done is the controller's, which is another
+/// process; the figures have standard output.
+template <class Machine, class... Needed>
+void demand(Machine& machine, const PlantCommand& options, const Needed&... needed) {
+  const std::string slow =
+      machines::demand_known(machine, needed...,
+                             options.unknown_drives.empty() ? machines::UnknownTask::kRefused
+                                                            : machines::UnknownTask::kSlow);
+  if (!slow.empty()) {
+    fmt::print(stderr, "{}, by a graben-ecu with --unknown-drives slow\n", slow);
+  }
+}
+
 nlohmann::ordered_json run_program(const PlantCommand& options,
-                                   const machines::SimulatedExcavator& machine,
+                                   machines::SimulatedExcavator machine,
                                    runs::PlantRunOptions run) {
   if (!machine.profile.has_swing()) {
     refuse("--operator program", "an excavator with a swing drive");
@@ -79,6 +93,7 @@ nlohmann::ordered_json run_program(const PlantCommand& options,
   const machines::TaskFile task =
       machines::load_task(machines::find_task(options.task.value_or("flatten")), machine.profile);
   machines::demand_steps(task, "--operator program");
+  demand(machine, options, machines::needed_drives(machine.profile, task.result.program));
   run.task_number = static_cast<std::uint8_t>(options.task_number.value_or(0));
   return reports::plant_json(
       runs::run_task_plant(runs::arranged(machine, tried), task.result.program, run));
@@ -94,8 +109,11 @@ nlohmann::ordered_json run_excavator(const PlantCommand& options,
     return run_program(options, machines::load_simulated_excavator(profile, options.simulated),
                        run);
   }
-  const machines::SimulatedExcavator machine = runs::arranged(
+  machines::SimulatedExcavator machine = runs::arranged(
       machines::load_simulated_excavator(profile, options.simulated), options.scenario);
+  if (run.player != runs::Player::kNobody) {
+    demand(machine, options, machines::kCylinders);
+  }
   const Eigen::Vector3d strokes_m = runs::usual_run(machine, options.scenario).start_strokes_m;
   return reports::plant_json(runs::run_plant(machine, run, runs::start_at(strokes_m)));
 }
@@ -112,9 +130,12 @@ nlohmann::ordered_json run_dozer(const PlantCommand& options, const std::filesys
   }
   runs::GradeScenario grade = options.grade;
   grade.errors = errors;
-  return reports::plant_json(runs::run_plant(runs::arranged(machines::load_simulated_dozer(profile),
-                                                            grade, options.scenario.scenario.seed),
-                                             run));
+  machines::SimulatedDozer machine = runs::arranged(machines::load_simulated_dozer(profile), grade,
+                                                    options.scenario.scenario.seed);
+  if (run.player != runs::Player::kNobody) {
+    demand(machine, options);
+  }
+  return reports::plant_json(runs::run_plant(machine, run));
 }
 
 void plant_on_bus(const PlantCommand& options) {
@@ -181,6 +202,7 @@ void add_plant(CLI::App& app, int& status) {
       ->check(number_between(0.0, 1e6));
   add_fault_option(*command, options->run.faults);
   add_summary_option(*command, options->summary);
+  add_unknown_drives_option(*command, options->unknown_drives);
   add_simulated_options(*command, options->simulated);
   add_scenario_options(*command, options->scenario);
   add_engine_option(*command, options->grade);

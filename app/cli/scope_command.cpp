@@ -32,6 +32,7 @@ struct ScopeCommand {
   machines::SimulatedChoice simulated;
   std::optional<std::string> soil;
   std::optional<int> bitrate_bps;
+  std::string unknown_drives;  ///< See demand_known().
   scope::ServerOptions server;
   design::DesignSource design;
   reports::SetupOptions setup;
@@ -55,6 +56,8 @@ scope::SimOptions simulation(const ScopeCommand& options) {
   result.seed = options.seed;
   result.simulated = options.simulated;
   result.soil = options.soil.value_or("");
+  result.unknown = options.unknown_drives.empty() ? machines::UnknownTask::kRefused
+                                                  : machines::UnknownTask::kSlow;
   if (!options.setup.tasks.empty()) {
     result.task_file = options.setup.tasks.front();
   }
@@ -95,6 +98,9 @@ void show(const ScopeCommand& options) {
   }
   if (options.soil && !options.sim) {
     throw std::runtime_error("--soil: only with --sim");
+  }
+  if (!options.unknown_drives.empty() && !options.sim) {
+    throw std::runtime_error("--unknown-drives: only with --sim");
   }
   const scope::Pages pages{scope::scope_page(), scope::operator_page()};
   const int bitrate_bps = options.bitrate_bps.value_or(kUsualBitrate_bps);
@@ -156,6 +162,7 @@ void add_scope(CLI::App& app, int& status) {
       ->check(whole_number());
   add_simulated_options(*command, options->simulated);
   add_design_options(*command, options->design);
+  add_unknown_drives_option(*command, options->unknown_drives);
   add_soil_option(
       *command, [options](const std::string& name) { options->soil = name; },
       "Of --sim dig and autodig: ground that the bucket cuts, or with dig kim, the paper's field "

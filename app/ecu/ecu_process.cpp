@@ -341,21 +341,34 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
 static_assert(std::is_same_v<Kinds::AnyMachine, machines::AnyMachine>,
               "each kind whose profiles are read has its controller");
 
+/// Tells a line each, and why.
+void tell(const std::string& lines) {
+  for (std::size_t from = 0; from < lines.size();) {
+    const std::size_t end = lines.find('\n', from);
+    std::fprintf(stderr, "graben-ecu: %s\n", lines.substr(from, end - from).c_str());
+    from = end + 1;
+  }
+}
+
 template <class Machine>
-int run_machine(const Machine& machine, const EcuOptions& options, TimeUs began_us) {
+int run_machine(Machine machine, const EcuOptions& options, TimeUs began_us) {
   using Kind = KindOf<Machine>;
   if constexpr (Kind::kHasTasks) {
     // The controller looks into its surfaces as long as it runs.
     const auto shelf = read_tasks(options.tasks, machine.profile);
-    return shelf ? run_controller<Kind>({machine.profile, shelf->book}, Kind::table(machine),
-                                        machine.hash, options, began_us)
-                 : kWrongFile;
+    if (!shelf) {
+      return kWrongFile;
+    }
+    tell(machines::prepare_unknown(machine, shelf->book, options.unknown));
+    return run_controller<Kind>({machine.profile, shelf->book}, Kind::table(machine), machine.hash,
+                                options, began_us);
   } else {
     if (!options.tasks.empty()) {
       std::fprintf(stderr, "graben-ecu: --task: %s is a %s's profile; a %s has no tasks\n",
                    options.profile.c_str(), Kind::kName, Kind::kName);
       return kWrongFile;
     }
+    tell(machines::prepare_unknown(machine, options.unknown));
     return run_controller<Kind>(machine.profile, Kind::table(machine), machine.hash, options,
                                 began_us);
   }

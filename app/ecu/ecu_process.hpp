@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/ecu/store/process_store.hpp"
+#include "app/machines/unknown_drives.hpp"
 #include "firmware/core/time.hpp"
 #include "hal/link/message_links.hpp"
 #include "hal/link/message_rules.hpp"
@@ -25,6 +26,8 @@ struct EcuOptions {
   std::string stats_file;             ///< Written on the way out; none if empty.
   std::optional<std::uint64_t> name;  ///< NAME on J1939; without it found_name().
   std::string store;                  ///< Folder; $STATE_DIRECTORY if empty; none without that.
+  /// Of tasks that need drives which were not commissioned.
+  machines::UnknownTask unknown = machines::UnknownTask::kRefused;
   bool real_time = true;
   int priority = 80;  ///< SCHED_FIFO.
   std::optional<int> cpu;

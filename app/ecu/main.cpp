@@ -64,6 +64,11 @@ std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& s
                  "service has, else none. A disk that is full, missing or read-only is said and "
                  "stops nothing")
       ->check(CLI::Validator(folder_name, "DIR"));
+  std::string unknown_drives;
+  app.add_option("--unknown-drives", unknown_drives,
+                 "slow: tasks that need drives that were not commissioned, where the profile is "
+                 "from `graben identify`, at 30 % of the speed; refused unless told")
+      ->check(CLI::IsMember({"slow"}));
   bool no_real_time = false;
   app.add_flag("--no-realtime", no_real_time,
                "Run without real-time priority and locked memory; said in every EcuHealth frame. "
@@ -90,6 +95,8 @@ std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& s
       return std::nullopt;
     }
   }
+  options.unknown =
+      unknown_drives.empty() ? machines::UnknownTask::kRefused : machines::UnknownTask::kSlow;
   options.real_time = !no_real_time;
   return options;
 }

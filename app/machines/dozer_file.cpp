@@ -4,6 +4,7 @@
 #include "app/machines/design_file.hpp"
 #include "app/machines/dozer_sections.hpp"
 #include "app/machines/profile_document.hpp"
+#include "app/machines/unknown_drives.hpp"
 
 namespace graben::machines {
 
@@ -21,6 +22,7 @@ DozerMachine load_dozer(const ProfileDocument& document) {
     check_dozer_across_keys(reader, machine.profile);
   });
   machine.hash ^= of_keys;  // With what a design in a file of its own has put there.
+  refuse_unknown(machine);
   return machine;
 }
 

@@ -11,6 +11,7 @@
 #include "app/machines/bus_file.hpp"
 #include "app/machines/excavator_sections.hpp"
 #include "app/machines/profile_document.hpp"
+#include "app/machines/unknown_drives.hpp"
 
 namespace graben::machines {
 namespace {
@@ -52,6 +53,7 @@ ExcavatorMachine load_excavator(const ProfileDocument& document) {
     check_excavator_across_keys(reader, machine.profile);
   });
   machine.hash ^= bus ? bus->hash : 0;
+  refuse_unknown(machine);
   return machine;
 }
 

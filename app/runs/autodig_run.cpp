@@ -105,7 +105,9 @@ class AutodigRun {
     const double longer = in_layers(program_) ? kLongerInLayers : kLongerThanPlanned;
     return seconds(now_us) >
            options_.most_s.value_or(kApproach_s + longer * options_.rounds * planned_s(program_) /
-                                                      options_.speed_override_ratio);
+                                                      speed_ratio(machine_.profile.safety.unknown,
+                                                                  Task::kProgram,
+                                                                  options_.speed_override_ratio));
   }
 
   /// The operator lets go of the task, and half a second later asks for it anew.

@@ -74,8 +74,10 @@ class DigRun {
       return true;
     }
     result_.end = DigEnd::kLoopNotClosed;
-    return seconds(now_us - reached_us_) >
-           options_.loops * options_.loop_max_s / options_.speed_override_ratio;
+    return seconds(now_us - reached_us_) > options_.loops * options_.loop_max_s /
+                                               speed_ratio(machine_.profile.safety.unknown,
+                                                           Task::kDig,
+                                                           options_.speed_override_ratio);
   }
 
   void look(TimeUs now_us, double cycle_us) {

@@ -60,7 +60,8 @@ class GradeRun {
     }
     result_.end = GradeEnd::kNotFinished;
     const double speed_mps =
-        options_.speed_override_ratio * machine_.profile.travel.speed_desired_mps;
+        speed_ratio(machine_.profile.safety.unknown, Task::kGrade, options_.speed_override_ratio) *
+        machine_.profile.travel.speed_desired_mps;
     return seconds(now_us) >
            options_.most_s.value_or(status.pass *
                                     (kStart_s + kLongerThanWanted * way_m() / speed_mps));

@@ -2,17 +2,27 @@
 #pragma once
 /// Simulated machine, operator and controller on one bus in memory. They share nothing but frames.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
 
 #include "firmware/core/time.hpp"
+#include "firmware/machine/unknown_drives.hpp"
 #include "firmware/signals/machine_signals.hpp"
 #include "hal/buses/bus_table.hpp"
 #include "platform/loopback/loopback_bus.hpp"
 
 namespace graben::runs {
+
+/// Of its full speed that a task is done with; what is refused counts as slow. For how long it may
+/// take.
+[[nodiscard]] inline double speed_ratio(const UnknownDrives& unknown, Task task,
+                                        double override_ratio) {
+  constexpr double kLeast = 0.05;
+  return override_ratio * std::max(kLeast, unknown.left_ratio(task, 0));
+}
 
 /// The nodes of one run. The operator gives nothing until kEnable_us, then enables automatic mode,
 /// then sets the task.

@@ -10,6 +10,7 @@
 #include "firmware/dozer/dozer_signals.hpp"
 #include "firmware/machine/mark.hpp"
 #include "firmware/machine/spool_answer.hpp"
+#include "firmware/machine/unknown_drives.hpp"
 #include "firmware/machine/valve.hpp"
 #include "firmware/signals/bus_capabilities.hpp"
 
@@ -202,6 +203,7 @@ struct DozerSafety {
   double displacement_tolerance = 0.0;  ///< Of full displacement.
   double displacement_settle_s = 0.0;   ///< Within which a displacement reaches its command.
   double track_speed_tolerance_mps = 0.0;
+  UnknownDrives unknown;  ///< See tell_unknown().
 };
 
 struct DozerProfile {

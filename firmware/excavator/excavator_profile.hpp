@@ -14,6 +14,7 @@
 #include "firmware/excavator/excavator_signals.hpp"
 #include "firmware/machine/mark.hpp"
 #include "firmware/machine/spool_answer.hpp"
+#include "firmware/machine/unknown_drives.hpp"
 #include "firmware/machine/valve.hpp"
 #include "firmware/signals/bus_capabilities.hpp"
 
@@ -238,6 +239,7 @@ struct SafetyProfile {
   /// Levers off their middle change on the bus at least so often, see lever_watch.hpp; 0: they need
   /// not.
   double levers_alive_s = 0.0;
+  UnknownDrives unknown;  ///< See tell_unknown().
 };
 
 /// The platform's turning about the vertical, to the left and to the right. Where a motor on one of

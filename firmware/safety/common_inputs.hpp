@@ -5,6 +5,7 @@
 
 #include <initializer_list>
 
+#include "firmware/machine/unknown_drives.hpp"
 #include "firmware/safety/plausibility.hpp"
 #include "firmware/signals/bus_capabilities.hpp"
 #include "firmware/signals/machine_signals.hpp"
@@ -87,6 +88,10 @@ void degrade(Fault fault, CommonValid& inputs);
 
 /// Adds one that is only said.
 void warn(Fault fault, CommonValid& inputs);
+
+/// kTaskUnknown in a task that needs a drive which was not commissioned; or only the speed that is
+/// left to it.
+void tell_unknown(const UnknownDrives& unknown, CommonValid& inputs);
 
 /// The operator's speed times `speed_ratio` while anything is degraded, and for kSlowAfter_s after:
 /// a value that comes and goes must not make the machine jerk. For the same reason the engine

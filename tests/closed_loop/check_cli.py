@@ -136,10 +136,38 @@ def uncommissioned(graben):
         refused(graben, needle, "dig", "--task", "truck_loading", *machine)
         done = call(graben, "autodig", "--task", "truck_loading", *machine, "--unknown-drives", "slow", "--seconds", "1")
         assert "not commissioned: swing, left; swing, right: at 30 % of the speed" in done.stdout, done
-        assert "was not finished in time" in done.stderr and "speed 30 %" in (folder / "autodig.html").read_text(), done
+        assert "was not finished in time" in done.stderr and ": at 30 % of the speed" in (folder / "autodig.html").read_text(), done
         said(("arm", "bucket", "swing"))
         refused(graben, "not commissioned: boom, extend; boom, retract;", "dig", *machine)
         refused(graben, "is none of slow", "dig", *machine, "--unknown-drives", "fast", status=2)
+        # Every command that has a task done: of the boom, of the swing; nothing is begun.
+        draws, machine = pathlib.Path(name) / "draws.csv", machine[:4]
+        campaign = ("--summary", draws, "--draws", "1", "--jobs", "1", *machine)
+        boom, swing = "commissioned: boom, extend; boom, retract; commission", "commissioned: swing, left; swing, right; commission"
+        refused(graben, boom, "campaign", "dig", *campaign)
+        refused(graben, boom, "campaign", "assist", *campaign)
+        refused(graben, boom, "scope", "--sim", "dig", "--port", "0", *machine)
+        refused(graben, boom, "plant", "--can", "no_such0", "--operator", "dig", *machine)
+        refused(graben, "no_such0", "plant", "--can", "no_such0", *machine)
+        done = call(graben, "plant", "--can", "no_such0", "--operator", "dig", *machine, "--unknown-drives", "slow")
+        assert "not commissioned: boom" in done.stderr and "no_such0" in done.stderr and not done.stdout, done
+        refused(graben, "only with --sim", "scope", "--can", "no_such0", "--unknown-drives", "slow")
+        said(("boom", "arm", "bucket"))
+        refused(graben, swing, "campaign", "autodig", *campaign)
+        refused(graben, swing, "campaign", "fences", *campaign)
+        refused(graben, swing, "scope", "--sim", "autodig", "--port", "0", *machine)
+        refused(graben, swing, "plant", "--can", "no_such0", "--operator", "program", *machine)
+        assert not draws.exists()
+        done = call(graben, "campaign", "fences", *campaign, "--unknown-drives", "slow")
+        assert done.returncode == 0 and ": at 30 % of the speed" in done.stdout and draws.exists(), done
+        (pathlib.Path(name) / "blade.sim.toml").write_text('kind = "dozer"\nlike = "dozer_9t"\n', encoding="ascii")
+        blade = pathlib.Path(name) / "blade.toml"
+        blade.write_text('kind = "dozer"\nlike = "dozer_9t"\n[hst]\ndriven = [0.1, 0.9]\n', encoding="ascii")
+        dozer, needle = ("--profile", blade), "commissioned: blade, extend; blade, retract; commission"
+        for kind in ("grade", "designs", "ground"):
+            refused(graben, needle, "campaign", kind, "--summary", draws.with_name("dozer.csv"), "--draws", "1", *dozer)
+        refused(graben, needle, "scope", "--sim", "grade", "--port", "0", *dozer)
+        refused(graben, needle, "plant", "--can", "no_such0", "--operator", "grade", *dozer)
 
 
 def bad_grades(graben):

@@ -56,6 +56,12 @@ std::filesystem::path profile_of(const SimOptions& options, const char* usual,
   return file;
 }
 
+void tell(const std::string& notice) {
+  if (!notice.empty()) {
+    fmt::print("{}\n", notice);
+  }
+}
+
 machines::SimulatedExcavator excavator_of(const SimOptions& options, const char* usual) {
   machines::Scenario scenario;
   if (options.seed) {
@@ -74,8 +80,9 @@ machines::SimulatedExcavator excavator_of(const SimOptions& options, const char*
 }
 
 SimSite<SimExcavator> dig_site(const SimOptions& options) {
-  auto machine =
-      std::make_shared<const machines::SimulatedExcavator>(excavator_of(options, "excavator_22t"));
+  machines::SimulatedExcavator known = excavator_of(options, "excavator_22t");
+  tell(machines::demand_known(known, machines::kCylinders, options.unknown));
+  auto machine = std::make_shared<const machines::SimulatedExcavator>(std::move(known));
   const Eigen::Vector3d start_m = machines::dig_start(machine->profile);
   SimSite<SimExcavator> site;
   site.make = [machine, start_m] {
@@ -97,15 +104,17 @@ SimSite<SimExcavator> autodig_site(const SimOptions& options) {
   if (options.soil == kFieldOfForce) {
     throw std::runtime_error("--soil kim: of the task dig alone");
   }
-  auto machine =
-      std::make_shared<const machines::SimulatedExcavator>(excavator_of(options, "excavator_12t"));
-  if (!machine->profile.has_swing()) {
+  machines::SimulatedExcavator known = excavator_of(options, "excavator_12t");
+  if (!known.profile.has_swing()) {
     throw std::runtime_error(
-        fmt::format("{}: the task autodig needs an excavator with a swing drive", machine->name));
+        fmt::format("{}: the task autodig needs an excavator with a swing drive", known.name));
   }
   const machines::TaskFile task = machines::load_task(
-      machines::find_task(options.task_file.value_or("flatten")), machine->profile);
+      machines::find_task(options.task_file.value_or("flatten")), known.profile);
   machines::demand_steps(task, "the task autodig");
+  tell(machines::demand_known(known, machines::needed_drives(known.profile, task.result.program),
+                              options.unknown));
+  auto machine = std::make_shared<const machines::SimulatedExcavator>(std::move(known));
   auto book = std::make_shared<TaskBook>();
   book->program[0] = task.result.program;
   book->count = 1;
@@ -127,8 +136,10 @@ SimSite<SimDozer> grade_site(const SimOptions& options) {
     return machines::load_simulated_dozer(
         profile_of(options, "dozer_9t", machines::MachineKind::kDozer, "a dozer"));
   };
-  auto machine = std::make_shared<const machines::SimulatedDozer>(
-      machines::arranged(options.designed ? *options.designed : own(), scenario));
+  machines::SimulatedDozer known =
+      machines::arranged(options.designed ? *options.designed : own(), scenario);
+  tell(machines::demand_known(known, options.unknown));
+  auto machine = std::make_shared<const machines::SimulatedDozer>(std::move(known));
   SimSite<SimDozer> site;
   site.make = [machine] { return std::make_unique<runs::GradeRig>(*machine, kFullSpeed); };
   site.is_done = [machine](const SimDozer::Rig& nodes) {

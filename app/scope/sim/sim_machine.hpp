@@ -13,6 +13,7 @@
 
 #include "app/machines/simulated/simulated_dozer.hpp"
 #include "app/machines/simulated/simulation_file.hpp"
+#include "app/machines/unknown_drives.hpp"
 #include "app/plant/excavator_plant.hpp"
 #include "app/plant/operator_node.hpp"
 #include "app/scope/sim/sim_fault.hpp"
@@ -57,6 +58,8 @@ struct SimOptions {
   /// What the controller does not know is drawn from it: errors of sensors and parameters. Exact
   /// without it.
   std::optional<std::uint64_t> seed;
+  /// Of a task that needs drives which were not commissioned.
+  machines::UnknownTask unknown = machines::UnknownTask::kRefused;
 };
 
 class SimMachine {

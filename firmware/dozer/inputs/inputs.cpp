@@ -13,6 +13,7 @@ DozerValid read_inputs(const DozerModel& machine, const DozerInputs& inputs, con
   tell_tube(last.tube, valid);
   tell_tube(last.off_track, valid);
   tell_mark(machine.profile.mark, last.mark, moving, valid);
+  tell_unknown(machine.profile.safety.unknown, valid);
   tell_external(inputs.external, moving, now_us, cycle.period_s, state.external, valid);
   const bool at_rest = spools_centred(drives, valid.drive) && tracks_at_rest(valid);
   const std::array<double, kBladeCount> stroke_m = {valid.blade().stroke_m, valid.tilt().stroke_m};

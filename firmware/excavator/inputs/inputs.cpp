@@ -110,6 +110,7 @@ ExcavatorValid read_inputs(const ExcavatorModel& machine, std::uint32_t programs
   watch(machine.profile, drives, last.commands, last.swash_ratio, cycle.elapsed_s, state.watch,
         valid);
   stop(task_faults(valid, programs), valid);
+  tell_unknown(machine.profile.safety.unknown, valid);
   stop(lever_faults(machine.profile.safety, valid, last.commands.moving, cycle.elapsed_s,
                     state.levers),
        valid);

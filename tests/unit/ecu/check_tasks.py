@@ -26,8 +26,8 @@ def main() -> int:
                         for name in ("flatten.toml", "truck_by_steps.toml"))
     problems = []
 
-    def expect(status, words, profile, *tasks, reaches_bus=False):
-        told = [word for task in tasks for word in ("--task", task)]
+    def expect(status, words, profile, *tasks, reaches_bus=False, more=()):
+        told = [word for task in tasks for word in ("--task", task)] + list(more)
         done = subprocess.run([ecu, "--can", "no_can0", "--profile", profile, *told, "--no-realtime"],
                               capture_output=True, text=True, timeout=1800, check=False)
         if done.returncode != status or done.stdout or not all(word in done.stderr for word in words):
@@ -56,6 +56,21 @@ def main() -> int:
         expect(WRONG, ["step[0].duration", "surplus"], excavator, wrong)
         # All of them in one go.
         expect(WRONG, ["surplus", "far.toml", "step[0]", "'none': there is no such file"], excavator, flatten, wrong, far, "none")
+        # A commissioning that left the swing out: said before the bus, and no reason not to start.
+        part = pathlib.Path(folder, "part.toml")
+        part.write_text('kind = "excavator"\nlike = "excavator_12t"\n' + "".join(
+            f"[valve.answer.{drive}.{side}]\ndriven = [0.3, 0.9]\n" for drive in ("boom", "arm", "bucket")
+            for side in ("extend", "retract")))
+        needs = "graben-ecu: task 0 needs drives that were not commissioned: swing, left; swing, right: "
+        (pathlib.Path(folder) / excavator.name).write_text(excavator.read_text())
+        expect(FAILED, [needs + "refused\n"], part, flatten)
+        expect(FAILED, [needs + "at 30 % of the speed\n"], part, flatten, more=("--unknown-drives", "slow"))
+        expect(FAILED, [], part, reaches_bus=True)
+        expect(WRONG, ["--unknown-drives"], part, more=("--unknown-drives", "fast"))
+        blade = pathlib.Path(folder, "blade.toml")
+        blade.write_text('kind = "dozer"\nlike = "dozer_9t"\n[hst]\ndriven = [0.1, 0.9]\n')
+        (pathlib.Path(folder) / dozer.name).write_text(dozer.read_text())
+        expect(FAILED, ["graben-ecu: grade needs drives that were not commissioned: blade, extend; blade, retract: refused"], blade)
     print("\n".join([*problems, f"tasks of graben-ecu: {len(problems)} problems"]))
     return 1 if problems else 0
 

@@ -299,3 +299,48 @@ TEST(closing_ends_centred_or_by_hand) {
   valid.faults.add(Fault::kOperatorMissing);
   assert_true(still_closing(true, true, kUnseen, valid));
 }
+
+/// A task as the operator asks for it, at four fifths of its speed.
+CommonValid asked(const UnknownDrives& unknown, Task task, int number = -1) {
+  CommonValid valid;
+  valid.task = task;
+  valid.task_number = number;
+  valid.speed_override_ratio = 0.8;
+  tell_unknown(unknown, valid);
+  return valid;
+}
+
+void assert_left(const CommonValid& valid, double speed_ratio, Fault fault) {
+  assert_near(valid.speed_override_ratio, speed_ratio, 1e-12);
+  assert_int_equal(valid.fault, fault);
+  assert_int_equal(only_of(valid.faults), fault);
+}
+
+TEST(a_task_that_needs_unknown_drives_is_refused_or_slow) {
+  UnknownDrives unknown;
+  for (const Task task : {Task::kNone, Task::kDig, Task::kGrade, Task::kProgram}) {
+    assert_left(asked(unknown, task, 0), 0.8, Fault::kNone);
+  }
+  unknown.tasks = 1U << static_cast<unsigned>(Task::kGrade);
+  unknown.programs = 1U << 2;
+  for (const double left : {0.0, 0.25}) {
+    unknown.speed_ratio = left;
+    const Fault fault = left > 0.0 ? Fault::kNone : Fault::kTaskUnknown;
+    assert_left(asked(unknown, Task::kGrade), 0.8 * left, fault);
+    assert_left(asked(unknown, Task::kProgram, 2), 0.8 * left, fault);
+    for (const int known : {-1, 0, 1, 3, 32, 34}) {
+      assert_left(asked(unknown, Task::kProgram, known), 0.8, Fault::kNone);
+    }
+    for (const Task task : {Task::kNone, Task::kDig, Task::kJog, Task::kCommission}) {
+      assert_left(asked(unknown, task, 2), 0.8, Fault::kNone);
+    }
+  }
+  // What came first stays the first.
+  CommonValid late = with_fault(Fault::kBusOff);
+  late.fault = Fault::kBusOff;
+  late.task = Task::kGrade;
+  unknown.speed_ratio = 0.0;
+  tell_unknown(unknown, late);
+  assert_int_equal(late.fault, Fault::kBusOff);
+  assert_true(late.faults.has(Fault::kTaskUnknown));
+}

@@ -24,6 +24,22 @@ TEST(before_anything_is_received_it_is_neutral_and_braked) {
   assert_true(outputs.status.why_not_armed != 0);
 }
 
+TEST(with_drives_that_were_not_commissioned_it_is_refused_or_slow) {
+  DozerProfile part = test::dozer().profile;
+  part.safety.unknown.tasks = 1U << static_cast<unsigned>(Task::kGrade);
+  part.safety.unknown.speed_ratio = 0.25;
+  Grading slow(part);
+  slow.run(130);
+  assert_near(slow.outputs.status.wanted_speed_mps, 0.25 * part.travel.speed_desired_mps, 0.02);
+  part.safety.unknown.speed_ratio = 0.0;
+  const DozerSetup setup(part);
+  DozerController controller(setup);
+  DozerInputs inputs = test::complete_dozer_inputs(kSecondUs);
+  const DozerOutputs outputs = controller.step(inputs, kSecondUs);
+  assert_neutral(outputs);
+  assert_true(outputs.status.faults.has(Fault::kTaskUnknown));
+}
+
 TEST(it_gets_faster_at_its_rate_and_lets_the_brake_go, Grading grading) {
   assert_false(grading.outputs.brake);
   grading.run(130);

@@ -129,6 +129,27 @@ TEST(an_unknown_number_is_refused) {
   assert_int_equal(mute.outputs.status.fault, Fault::kTaskUnknown);
 }
 
+TEST(one_with_drives_that_were_not_commissioned_is_refused_or_slow) {
+  ExcavatorProfile part = test::answering_12t();
+  part.safety.unknown.programs = 1;
+  TaskMachine refused(test::book_of({dig(), dig()}), beside(), part);
+  assert_neutral(refused.step());
+  assert_true(refused.outputs.status.faults.has(Fault::kTaskUnknown));
+  TaskMachine other(test::book_of({dig(), dig()}), beside(), part);
+  other.driver.task_number.value = 1;
+  other.run(2);
+  part.safety.unknown.speed_ratio = 0.5;
+  TaskMachine slow(test::book_of({dig()}), dig().start, part);
+  TaskMachine told(test::book_of({dig()}), dig().start);
+  told.driver.speed_override_ratio.value = 0.5;
+  slow.run(300);
+  told.run(300);
+  const auto& progress = slow.outputs.status.progress;
+  assert_int_equal(progress.kind, told.outputs.status.progress.kind);
+  assert_true(progress.kind != StepKind::kApproach && progress.share > 0.01);
+  assert_near(progress.share, told.outputs.status.progress.share, 1e-12);
+}
+
 void assert_starts_afresh(TaskMachine& running, int number) {
   running.run(2);
   assert_int_equal(running.outputs.status.progress.kind, StepKind::kApproach);
