@@ -20,8 +20,8 @@
 #include "app/cli/output_file.hpp"
 #include "app/commission/commission_windows.hpp"
 #include "app/commission/dozer_plan.hpp"
+#include "app/commission/wrong_way.hpp"
 #include "app/machines/profile_file.hpp"
-#include "app/runs/code_text.hpp"
 #include "app/runs/commission_run.hpp"
 
 namespace graben::cli {
@@ -55,21 +55,6 @@ std::vector<std::string> drive_names() {
   names.insert(names.end(), std::begin(commission::kDozerDrives),
                std::end(commission::kDozerDrives));
   return names;
-}
-
-std::string stop_text(const runs::CommissionResult& result) {
-  switch (result.end) {
-    case runs::CommissionEnd::kDone:
-      return "";
-    case runs::CommissionEnd::kFault:
-      return fmt::format("{} (fault {}). {}", runs::fault_words(result.fault),
-                         static_cast<int>(result.fault), runs::fault_help(result.fault));
-    case runs::CommissionEnd::kWrongWay:
-      return wrong_text(*result.wrong);
-    case runs::CommissionEnd::kTooLong:
-      return fmt::format("not done after {} s", runs::kCommissionMost_s);
-  }
-  return "";
 }
 
 /// Its pressures' noise, without biases of a day, which would be no machine's.
@@ -113,30 +98,25 @@ void commission_in_memory(const CommissionCommand& options) {
     ProgressBar bar("commission");
     result = runs::run_commission(machine, run, nullptr, bar.progress_until_stopped());
   }
-  fmt::print("{:<49} {:<11} {:>6} {:>6} {:>9}\n", "tried", "ended as", "took", "duty", "speed");
-  for (std::size_t at = 0; at < result.steps.size(); ++at) {
-    const commission::StepResult& step = result.steps[at];
-    fmt::print("{:<49} {:<11} {:>4.1f} s {:>4.0f} % {:>9}\n", step_text(steps[at]),
-               end_text(step.end), step.took_s, 100.0 * step.duty, speed_text(steps[at], step));
+  std::vector<std::string> texts;
+  for (const commission::SequenceStep& step : steps) {
+    texts.push_back(step_text(step));
   }
+  print_steps(texts, result.steps,
+              [&](std::size_t at) { return speed_text(steps[at], result.steps[at]); });
   fmt::print(
       "(took: with the way to its start; duty, speed: the largest that was tried, that came of "
       "it)\n");
   fmt::print("machine time {:.0f} s\nlog {}\n", result.machine_s, options.log);
   if (result.end != runs::CommissionEnd::kDone) {
-    throw std::runtime_error(
-        fmt::format("stopped at \"{}\": {}", step_text(steps[result.step]), stop_text(result)));
+    throw std::runtime_error(fmt::format("stopped at \"{}\": {}", texts[result.step],
+                                         stop_text(result, &commission::wrong_text)));
   }
   fmt::print("{}{}", left_out_text(options.choice, run.sequence), next_text(options));
 }
 
 /// Of a dozer, what only an excavator has is refused.
 void commission_a_dozer(const CommissionCommand& options) {
-  if (!options.interface.empty()) {
-    throw std::runtime_error(
-        fmt::format("{}: a dozer is commissioned on a simulated machine alone, without --can",
-                    options.profile));
-  }
   if (options.simulated.name || options.found_told) {
     throw std::runtime_error(fmt::format(
         "{}: --simulated and --found are of an excavator; a dozer has --hidden", options.profile));
@@ -145,14 +125,13 @@ void commission_a_dozer(const CommissionCommand& options) {
 }
 
 void run_commission(const CommissionCommand& options) {
-  const auto kind = machines::profile_kind(machines::find_profile(options.profile));
-  if (kind == machines::MachineKind::kDozer) {
-    commission_a_dozer(options);
-  } else if (options.interface.empty()) {
-    commission_in_memory(options);
-  } else {
+  if (!options.interface.empty()) {
     commission_on_bus(options);
+    return;
   }
+  const auto kind = machines::profile_kind(machines::find_profile(options.profile));
+  kind == machines::MachineKind::kDozer ? commission_a_dozer(options)
+                                        : commission_in_memory(options);
 }
 
 /// What is tried, of both kinds of run.

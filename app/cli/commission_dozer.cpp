@@ -13,7 +13,6 @@
 #include "app/cli/options.hpp"
 #include "app/cli/output_file.hpp"
 #include "app/machines/simulated/hidden_dozer.hpp"
-#include "app/runs/code_text.hpp"
 #include "app/runs/dozer_commission_run.hpp"
 
 namespace graben::cli {
@@ -23,7 +22,23 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void choose_drives(const SequenceChoice& choice, commission::DozerOptions& options) {
+commission::DozerOptions planned(const DozerCommission& of,
+                                 const machines::SimulatedDozer& machine) {
+  commission::DozerOptions options = commission::whole_dozer(machine.profile);
+  choose(of.options.choice, options);
+  if (!of.options.windows.empty()) {
+    commission::read_dozer_windows(of.options.windows, options);
+  }
+  if (commission::dozer_step_texts(options).empty()) {
+    throw std::runtime_error("nothing is left to be tried: " +
+                             left_out_text(of.options.choice, options));
+  }
+  return options;
+}
+
+}  // namespace
+
+void choose(const SequenceChoice& choice, commission::DozerOptions& options) {
   if (!choice.no_touch.empty()) {
     throw std::runtime_error("--no-touch: no end of a dozer's stroke is touched");
   }
@@ -46,7 +61,8 @@ void choose_drives(const SequenceChoice& choice, commission::DozerOptions& optio
 }
 
 /// What is not tried, and what no step can show.
-std::string left_out_dozer(const commission::DozerOptions& options) {
+std::string left_out_text(const SequenceChoice& /*choice*/,
+                          const commission::DozerOptions& options) {
   std::vector<std::string> out;
   const bool tried[] = {options.blade.drives[0], options.blade.drives[1] || !options.has_tilt,
                         options.tracks};
@@ -64,49 +80,6 @@ std::string left_out_dozer(const commission::DozerOptions& options) {
   return out.empty() ? ""
                      : fmt::format("left out, and so not identified: {}\n", fmt::join(out, ", "));
 }
-
-std::string why_stopped(const runs::DozerCommissionResult& result) {
-  switch (result.end) {
-    case runs::DozerCommissionEnd::kDone:
-      return "";
-    case runs::DozerCommissionEnd::kFault:
-      return fmt::format("{} (fault {}). {}", runs::fault_words(result.fault),
-                         static_cast<int>(result.fault), runs::fault_help(result.fault));
-    case runs::DozerCommissionEnd::kWrongWay:
-      return commission::dozer_wrong_text(*result.wrong);
-    case runs::DozerCommissionEnd::kTooLong:
-      return "not done in time";
-  }
-  return "";
-}
-
-void print_steps(const std::vector<std::string>& texts, const runs::DozerCommissionResult& result) {
-  fmt::print("{:<49} {:<11} {:>6} {:>6} {:>9}\n", "tried", "ended as", "took", "duty", "speed");
-  for (std::size_t at = 0; at < result.steps.size(); ++at) {
-    const commission::StepResult& step = result.steps[at];
-    fmt::print("{:<49} {:<11} {:>4.1f} s {:>4.0f} % {:>4.0f} mm/s\n", texts[at],
-               commission::end_text(step.end), step.took_s, 100.0 * step.duty,
-               1e3 * step.speed_mps);
-  }
-  fmt::print(
-      "(took: with the way to its start; duty, of the tracks displacement of the pumps, and speed: "
-      "the largest that was tried, that came of it)\n");
-}
-
-commission::DozerOptions planned(const DozerCommission& of,
-                                 const machines::SimulatedDozer& machine) {
-  commission::DozerOptions options = commission::whole_dozer(machine.profile);
-  choose_drives(of.options.choice, options);
-  if (!of.options.windows.empty()) {
-    commission::read_dozer_windows(of.options.windows, options);
-  }
-  if (commission::dozer_step_texts(options).empty()) {
-    throw std::runtime_error("nothing is left to be tried: " + left_out_dozer(options));
-  }
-  return options;
-}
-
-}  // namespace
 
 void commission_dozer(const DozerCommission& of) {
   const BusCommission& options = of.options;
@@ -130,20 +103,25 @@ void commission_dozer(const DozerCommission& of) {
   for (const std::string& line : commission::dozer_window_texts(run)) {
     fmt::print("{}\n", line);
   }
-  runs::DozerCommissionResult result;
+  runs::CommissionResult result;
   {
     ProgressBar bar("commission");
     result = runs::run_dozer_commission(machine, run, options.log, nullptr,
                                         bar.progress_until_stopped());
   }
   const std::vector<std::string> texts = commission::dozer_step_texts(run);
-  print_steps(texts, result);
+  print_steps(texts, result.steps, [&result](std::size_t at) {
+    return fmt::format("{:.0f} mm/s", 1e3 * result.steps[at].speed_mps);
+  });
+  fmt::print(
+      "(took: with the way to its start; duty, of the tracks displacement of the pumps, and speed: "
+      "the largest that was tried, that came of it)\n");
   fmt::print("machine time {:.0f} s\nlog {}\n", result.machine_s, options.log);
-  if (result.end != runs::DozerCommissionEnd::kDone) {
-    throw std::runtime_error(
-        fmt::format("stopped at \"{}\": {}", texts[result.step], why_stopped(result)));
+  if (result.end != runs::CommissionEnd::kDone) {
+    throw std::runtime_error(fmt::format("stopped at \"{}\": {}", texts[result.step],
+                                         stop_text(result, &commission::dozer_wrong_text)));
   }
-  fmt::print("{}{}", left_out_dozer(run), next_text(options));
+  fmt::print("{}{}", left_out_text(options.choice, run), next_text(options));
 }
 
 }  // namespace graben::cli

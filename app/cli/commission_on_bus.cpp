@@ -14,10 +14,13 @@
 
 #include "app/cli/options.hpp"
 #include "app/cli/program.hpp"
+#include "app/commission/commission_progress.hpp"
 #include "app/commission/commission_windows.hpp"
+#include "app/machines/dozer_file.hpp"
 #include "app/machines/excavator_file.hpp"
 #include "app/operate/bus_survey.hpp"
 #include "app/operate/commission_live.hpp"
+#include "app/runs/code_text.hpp"
 
 namespace graben::cli {
 namespace {
@@ -28,15 +31,18 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void look_at_bus(const BusCommission& options, const machines::ExcavatorMachine& machine) {
+template <class Machine>
+void look_at_bus(const BusCommission& options, const Machine& machine) {
   fmt::print("listening on {} for {:.0f} s\n", options.interface, kListen_s);
   std::fflush(stdout);
   TimeUs end_us = 0;
-  const operate::BusSurvey survey = operate::survey_bus(options.interface, kListen_s, end_us);
+  const operate::BusSurvey survey = operate::survey_bus(
+      options.interface, operate::surveyed_bus(machine.profile), kListen_s, end_us);
   for (const std::string& line : survey.lines(machine.profile, kListen_s, end_us)) {
     fmt::print("  {}\n", line);
   }
-  if (const std::string obstacle = survey.obstacle(machine.hash, end_us); !obstacle.empty()) {
+  if (const std::string obstacle = survey.obstacle(machine.profile, machine.hash, end_us);
+      !obstacle.empty()) {
     throw std::runtime_error(fmt::format("{}: {}", options.interface, obstacle));
   }
 }
@@ -55,25 +61,74 @@ void require_somebody_confirms(const BusCommission& options) {
   }
 }
 
-/// From the file, or from the operator.
-void confirm_windows(const BusCommission& options, commission::SequenceOptions& sequence) {
-  if (!options.windows.empty()) {
-    commission::read_windows(options.windows, sequence);
-  } else if (!commission::ask_windows(&ask_on_terminal, sequence)) {
-    throw std::runtime_error("the windows were not confirmed");
+/// What is the kind's own of a commissioning on a bus.
+struct ExcavatorOnBus {
+  using Options = commission::SequenceOptions;
+  static machines::ExcavatorMachine load(const std::filesystem::path& file) {
+    return machines::load_excavator(file);
   }
-  leave_touches(options.choice, sequence);
-}
+  static Options whole(const ExcavatorProfile& profile) {
+    return commission::whole_sequence(profile);
+  }
+  static void read_windows(const std::string& file, Options& options) {
+    commission::read_windows(file, options);
+  }
+  /// From the file, or from the operator.
+  static void confirm(const BusCommission& told, Options& options) {
+    if (!told.windows.empty()) {
+      commission::read_windows(told.windows, options);
+    } else if (!commission::ask_windows(&ask_on_terminal, options)) {
+      throw std::runtime_error("the windows were not confirmed");
+    }
+    leave_touches(told.choice, options);
+  }
+  static std::vector<std::string> windows(const Options& options) {
+    std::vector<std::string> lines;
+    for (int axis = 0; axis < kAxisCount; ++axis) {
+      if (options.drives[static_cast<unsigned>(axis)]) {
+        lines.push_back(commission::window_text(options, axis));
+      }
+    }
+    if (options.swing) {
+      lines.push_back(commission::sector_text(options.sector));
+    }
+    return lines;
+  }
+  static std::size_t steps(const Options& options) {
+    return commission::planned_steps(options).size();
+  }
+};
 
-commission::Progress begun(const BusCommission& options,
-                           const machines::ExcavatorMachine& machine) {
-  const commission::SequenceOptions whole = commission::whole_sequence(machine.profile);
+struct DozerOnBus {
+  using Options = commission::DozerOptions;
+  static machines::DozerMachine load(const std::filesystem::path& file) {
+    return machines::load_dozer(file);
+  }
+  static Options whole(const DozerProfile& profile) { return commission::whole_dozer(profile); }
+  static void read_windows(const std::string& file, Options& options) {
+    commission::read_dozer_windows(file, options);
+  }
+  static void confirm(const BusCommission& told, Options& options) {
+    commission::read_dozer_windows(told.windows, options);
+  }
+  static std::vector<std::string> windows(const Options& options) {
+    return commission::dozer_window_texts(options);
+  }
+  static std::size_t steps(const Options& options) {
+    return commission::dozer_step_texts(options).size();
+  }
+};
+
+template <class Kind, class Machine>
+commission::ProgressOf<typename Kind::Options> begun(const BusCommission& options,
+                                                     const Machine& machine) {
+  const auto whole = Kind::whole(machine.profile);
   const std::filesystem::path file = commission::progress_file(options.log);
   if (options.resume) {
-    commission::Progress progress = commission::read_progress(file, machine.hash, whole);
+    auto progress = commission::read_progress(file, machine.hash, whole);
     if (!options.windows.empty()) {
-      commission::SequenceOptions now = progress.options;
-      commission::read_windows(options.windows, now);
+      auto now = progress.options;
+      Kind::read_windows(options.windows, now);
       commission::require_same_windows(progress.options, now);
     }
     return progress;
@@ -84,14 +139,15 @@ commission::Progress begun(const BusCommission& options,
                              "or none of that name, begins newly");
   }
   std::filesystem::create_directories(std::filesystem::absolute(options.log).parent_path());
-  commission::Progress progress;
+  commission::ProgressOf<typename Kind::Options> progress;
   progress.profile_hash = machine.hash;
   progress.options = whole;
   choose(options.choice, progress.options);
   return progress;
 }
 
-void say_result(const BusCommission& options, const commission::SequenceOptions& planned,
+template <class Options>
+void say_result(const BusCommission& options, const Options& planned,
                 const operate::LiveResult& result) {
   const std::string resume =
       fmt::format("graben commission --can {} --profile {} --log {} --resume", options.interface,
@@ -169,35 +225,76 @@ void choose(const SequenceChoice& choice, commission::SequenceOptions& options) 
   leave_touches(choice, options);
 }
 
-void commission_on_bus(const BusCommission& options) {
-  const machines::ExcavatorMachine machine =
-      machines::load_excavator(machines::find_profile(options.profile));
-  commission::Progress progress = begun(options, machine);
+void print_steps(const std::vector<std::string>& texts,
+                 const std::vector<commission::StepResult>& steps,
+                 const std::function<std::string(std::size_t)>& speed) {
+  fmt::print("{:<49} {:<11} {:>6} {:>6} {:>9}\n", "tried", "ended as", "took", "duty", "speed");
+  for (std::size_t at = 0; at < steps.size(); ++at) {
+    const commission::StepResult& step = steps[at];
+    fmt::print("{:<49} {:<11} {:>4.1f} s {:>4.0f} % {:>9}\n", texts[at], end_text(step.end),
+               step.took_s, 100.0 * step.duty, speed(at));
+  }
+}
+
+std::string stop_text(const runs::CommissionResult& result,
+                      const std::function<std::string(const commission::WrongWay&)>& wrong) {
+  switch (result.end) {
+    case runs::CommissionEnd::kDone:
+      return "";
+    case runs::CommissionEnd::kFault:
+      return fmt::format("{} (fault {}). {}", runs::fault_words(result.fault),
+                         static_cast<int>(result.fault), runs::fault_help(result.fault));
+    case runs::CommissionEnd::kWrongWay:
+      return wrong(*result.wrong);
+    case runs::CommissionEnd::kTooLong:
+      return fmt::format("not done after {} s", runs::kCommissionMost_s);
+  }
+  return "";
+}
+
+namespace {
+
+template <class Kind>
+void lead_on_bus(const BusCommission& options) {
+  const auto machine = Kind::load(machines::find_profile(options.profile));
+  auto progress = begun<Kind>(options, machine);
   require_somebody_confirms(options);
   look_at_bus(options, machine);
   if (!options.resume) {
-    confirm_windows(options, progress.options);
+    Kind::confirm(options, progress.options);
   }
-  for (int axis = 0; axis < kAxisCount; ++axis) {
-    if (progress.options.drives[static_cast<unsigned>(axis)]) {
-      fmt::print("{}\n", commission::window_text(progress.options, axis));
-    }
+  if (Kind::steps(progress.options) == 0) {
+    throw std::runtime_error("nothing is left to be tried: " +
+                             left_out_text(options.choice, progress.options));
   }
-  if (progress.options.swing) {
-    fmt::print("{}\n", commission::sector_text(progress.options.sector));
+  for (const std::string& line : Kind::windows(progress.options)) {
+    fmt::print("{}\n", line);
   }
   fmt::print("{}", left_out_text(options.choice, progress.options));
   fmt::print("{} steps, {} of them done. Nobody within reach? Then hold the deadman\n",
-             commission::planned_steps(progress.options).size(), progress.results.size());
+             Kind::steps(progress.options), progress.results.size());
   std::fflush(stdout);
-  operate::LiveCommission live;
-  live.interface = options.interface;
-  live.gamepad = options.gamepad;
-  live.keyboard = options.keyboard;
-  live.silent_after_us = static_cast<TimeUs>(options.silent_after_s * 1e6);
-  live.log = options.log;
-  live.progress = progress;
-  say_result(options, progress.options, operate::run_live_commission(live));
+  const operate::LiveOptions live = {options.interface, options.gamepad, options.keyboard,
+                                     static_cast<TimeUs>(options.silent_after_s * 1e6),
+                                     options.log};
+  say_result(options, progress.options, operate::run_live_commission(live, progress));
+}
+
+}  // namespace
+
+void commission_on_bus(const BusCommission& options) {
+  const auto kind = machines::profile_kind(machines::find_profile(options.profile));
+  if (kind != machines::MachineKind::kDozer) {
+    lead_on_bus<ExcavatorOnBus>(options);
+    return;
+  }
+  if (!options.resume && options.windows.empty()) {
+    throw std::runtime_error(
+        fmt::format("{}: a dozer's windows are confirmed by a file: --windows, with [blade], "
+                    "[tilt], [tracks]",
+                    options.profile));
+  }
+  lead_on_bus<DozerOnBus>(options);
 }
 
 }  // namespace graben::cli

@@ -14,6 +14,7 @@
 #include "app/cli/output_file.hpp"
 #include "app/cli/program.hpp"
 #include "app/identify/dozer/dozer_text.hpp"
+#include "app/reports/identify/dozer_page.hpp"
 
 namespace graben::cli {
 namespace {
@@ -125,20 +126,17 @@ void check_dozer(const IdentifyLogCommand& options, const machines::DozerMachine
 }
 
 void assert_dozer_outputs(const IdentifyLogCommand& options, const fs::path& profile) {
-  if (!options.report.empty()) {
-    throw std::runtime_error("--report: there is no page of a dozer; --summary has its figures");
-  }
   if (options.strokes_measured) {
     throw std::runtime_error("--strokes-measured: a dozer's strokes are not judged by its oil");
   }
   std::vector<std::string> inputs = options.logs;
   inputs.push_back(profile.string());
-  assert_apart(inputs, {options.out, options.summary});
+  assert_apart(inputs, {options.out, options.summary, options.report});
   if (!options.out.empty() && fs::exists(options.out) && !options.force) {
     throw std::runtime_error(
         fmt::format("{}: is there already; --force overwrites it", options.out));
   }
-  for (const std::string& file : {options.out, options.summary}) {
+  for (const std::string& file : {options.out, options.summary, options.report}) {
     if (!file.empty()) {
       assert_writable(file);
     }
@@ -186,10 +184,17 @@ void identify_dozer_logs(const IdentifyLogCommand& options) {
   if (!options.summary.empty()) {
     write_dozer_summary(options.summary, changes, found, before, after);
   }
+  if (!options.report.empty()) {
+    write_whole(options.report, reports::dozer_page({machine, profile, found, changes, before,
+                                                     after, source_text(named)}));
+  }
   write_whole(options.out, text);
   const machines::DozerMachine written = machines::load_dozer(options.out);
   fmt::print("profile  {}\n{}\n", options.out,
              machines::commissioned_text(written.driven, written.profile.tilt.present));
+  if (!options.report.empty()) {
+    fmt::print("report   {}\n", options.report);
+  }
   fmt::print("next     graben identify --check --log {} --profile {} --before {}\n",
              shell_word(options.logs.back()), shell_word(options.out), shell_word(options.profile));
 }

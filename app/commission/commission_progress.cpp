@@ -57,12 +57,21 @@ void read_swing(const json& drives, SequenceOptions& options) {
   }
 }
 
-json steps_json(const Progress& progress) {
-  const std::vector<SequenceStep> plan = planned_steps(progress.options);
+std::vector<std::string> texts_of(const SequenceOptions& options) {
+  std::vector<std::string> texts;
+  for (const SequenceStep& step : planned_steps(options)) {
+    texts.push_back(step_text(step));
+  }
+  return texts;
+}
+
+std::vector<std::string> texts_of(const DozerOptions& options) { return dozer_step_texts(options); }
+
+json steps_json(const std::vector<std::string>& texts, const std::vector<StepResult>& results) {
   json steps = json::array();
-  for (std::size_t at = 0; at < progress.results.size(); ++at) {
-    const StepResult& result = progress.results[at];
-    steps.push_back({{"step", step_text(plan.at(at))},
+  for (std::size_t at = 0; at < results.size(); ++at) {
+    const StepResult& result = results[at];
+    steps.push_back({{"step", texts.at(at)},
                      {"end", end_text(result.end)},
                      {"duty", result.duty},
                      {"speed_mps", result.speed_mps},
@@ -81,45 +90,83 @@ StepEnd read_end(const std::string& text) {
   throw std::runtime_error(fmt::format("'{}' is no end of a step", text));
 }
 
-void read_steps(const json& steps, Progress& progress) {
-  const std::vector<SequenceStep> plan = planned_steps(progress.options);
+std::vector<StepResult> read_steps(const json& steps, const std::vector<std::string>& texts) {
+  std::vector<StepResult> results;
   for (const json& step : steps) {
-    const std::size_t at = progress.results.size();
-    if (at >= plan.size() || step.at("step") != step_text(plan[at])) {
+    const std::size_t at = results.size();
+    if (at >= texts.size() || step.at("step") != texts[at]) {
       throw std::runtime_error("its steps are not those of this version of the sequence");
     }
-    progress.results.push_back(
+    results.push_back(
         {read_end(step.at("end")), step.at("duty"), step.at("speed_mps"), step.at("took_s")});
   }
+  return results;
 }
 
-/// What was left untouched although it was free may stay so.
-bool are_same(const SequenceOptions& before, const SequenceOptions& now, unsigned k) {
-  const Window& one = before.window[k];
-  const Window& other = now.window[k];
-  return std::abs(one.least_m - other.least_m) < kSame &&
-         std::abs(one.most_m - other.most_m) < kSame &&
-         std::abs(one.most_mps - other.most_mps) < kSame &&
-         (now.touch_retracted[k] || !before.touch_retracted[k]) &&
-         (now.touch_extended[k] || !before.touch_extended[k]);
-}
-
-}  // namespace
-
-fs::path progress_file(const fs::path& log) { return log.string() + ".progress.json"; }
-
-void write_progress(const fs::path& file, const Progress& progress) {
-  json root = {{"profile_hash", progress.profile_hash},
-               {"levels", progress.options.steps},
-               {"bursts", progress.options.bursts},
-               {"pairs", progress.options.pairs},
-               {"steps", steps_json(progress)}};
+json drives_json(const SequenceOptions& options) {
+  json drives;
   for (int axis = 0; axis < kAxisCount; ++axis) {
-    root["drives"][axis_name(axis)] = drive_json(progress.options, static_cast<unsigned>(axis));
+    drives[axis_name(axis)] = drive_json(options, static_cast<unsigned>(axis));
   }
-  if (progress.options.has_swing) {
-    root["drives"][axis_name(kSwing)] = swing_json(progress.options);
+  if (options.has_swing) {
+    drives[axis_name(kSwing)] = swing_json(options);
   }
+  return drives;
+}
+
+json window_json(bool tried, const Window& window) {
+  return {{"tried", tried},
+          {"least_m", window.least_m},
+          {"most_m", window.most_m},
+          {"most_mps", window.most_mps}};
+}
+
+json drives_json(const DozerOptions& options) {
+  json drives;
+  for (std::size_t drive = 0; drive < 2; ++drive) {
+    drives[kDozerDrives[drive]] =
+        window_json(options.blade.drives[drive], options.blade.window[drive]);
+  }
+  drives[kDozerDrives[2]] = window_json(options.tracks, options.way);
+  return drives;
+}
+
+/// What both kinds leave out of their sequence.
+const SequenceOptions& parts_of(const SequenceOptions& options) { return options; }
+const SequenceOptions& parts_of(const DozerOptions& options) { return options.blade; }
+SequenceOptions& parts_of(SequenceOptions& options) { return options; }
+SequenceOptions& parts_of(DozerOptions& options) { return options.blade; }
+
+void read_drives(const json& drives, SequenceOptions& options) {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    read_drive(drives.at(axis_name(axis)), static_cast<unsigned>(axis), options);
+  }
+  read_swing(drives, options);
+}
+
+void read_drives(const json& drives, DozerOptions& options) {
+  const auto read = [&drives](std::size_t drive, Window& window) -> bool {
+    const json& said = drives.at(kDozerDrives[drive]);
+    window = {said.at("least_m"), said.at("most_m"), said.at("most_mps")};
+    return said.at("tried");
+  };
+  for (std::size_t drive = 0; drive < 2; ++drive) {
+    options.blade.drives[drive] =
+        read(drive, options.blade.window[drive]) && (drive == 0 || options.has_tilt);
+  }
+  options.tracks = read(2, options.way);
+  require_possible(options);
+}
+
+template <class Options>
+void write(const fs::path& file, const ProgressOf<Options>& progress) {
+  const SequenceOptions& parts = parts_of(progress.options);
+  const json root = {{"profile_hash", progress.profile_hash},
+                     {"levels", parts.steps},
+                     {"bursts", parts.bursts},
+                     {"pairs", parts.pairs},
+                     {"drives", drives_json(progress.options)},
+                     {"steps", steps_json(texts_of(progress.options), progress.results)}};
   const fs::path part = file.string() + ".part";
   std::ofstream stream(part);
   stream << root.dump(1) << '\n';
@@ -130,27 +177,24 @@ void write_progress(const fs::path& file, const Progress& progress) {
   fs::rename(part, file);
 }
 
-Progress read_progress(const fs::path& file, std::uint32_t profile_hash,
-                       const SequenceOptions& machine) {
+template <class Options>
+ProgressOf<Options> read(const fs::path& file, std::uint32_t profile_hash, const Options& machine) {
   std::ifstream stream(file);
   if (!stream) {
     throw std::runtime_error(machines::unread_text(
         file, "the progress of a commissioning, which one that was stopped leaves beside its log"));
   }
-  Progress progress;
+  ProgressOf<Options> progress;
   progress.options = machine;
   try {
     const json root = json::parse(stream);
     progress.profile_hash = root.at("profile_hash");
-    progress.options.steps = root.at("levels");
-    progress.options.bursts = root.at("bursts");
-    progress.options.pairs = root.at("pairs");
-    for (int axis = 0; axis < kAxisCount; ++axis) {
-      read_drive(root.at("drives").at(axis_name(axis)), static_cast<unsigned>(axis),
-                 progress.options);
-    }
-    read_swing(root.at("drives"), progress.options);
-    read_steps(root.at("steps"), progress);
+    SequenceOptions& parts = parts_of(progress.options);
+    parts.steps = root.at("levels");
+    parts.bursts = root.at("bursts");
+    parts.pairs = root.at("pairs");
+    read_drives(root.at("drives"), progress.options);
+    progress.results = read_steps(root.at("steps"), texts_of(progress.options));
   } catch (const json::exception&) {
     throw std::runtime_error(fmt::format(
         "{}: damaged, so that nothing can be gone on with; begin newly with another --log",
@@ -164,6 +208,37 @@ Progress read_progress(const fs::path& file, std::uint32_t profile_hash,
         file.string(), progress.profile_hash, profile_hash));
   }
   return progress;
+}
+
+bool is_same(const Window& one, const Window& other) {
+  return std::abs(one.least_m - other.least_m) < kSame &&
+         std::abs(one.most_m - other.most_m) < kSame &&
+         std::abs(one.most_mps - other.most_mps) < kSame;
+}
+
+/// What was left untouched although it was free may stay so.
+bool are_same(const SequenceOptions& before, const SequenceOptions& now, unsigned k) {
+  return is_same(before.window[k], now.window[k]) &&
+         (now.touch_retracted[k] || !before.touch_retracted[k]) &&
+         (now.touch_extended[k] || !before.touch_extended[k]);
+}
+
+}  // namespace
+
+fs::path progress_file(const fs::path& log) { return log.string() + ".progress.json"; }
+
+void write_progress(const fs::path& file, const Progress& progress) { write(file, progress); }
+
+void write_progress(const fs::path& file, const DozerProgress& progress) { write(file, progress); }
+
+Progress read_progress(const fs::path& file, std::uint32_t profile_hash,
+                       const SequenceOptions& machine) {
+  return read(file, profile_hash, machine);
+}
+
+DozerProgress read_progress(const fs::path& file, std::uint32_t profile_hash,
+                            const DozerOptions& machine) {
+  return read(file, profile_hash, machine);
 }
 
 void require_same_windows(const SequenceOptions& before, const SequenceOptions& now) {
@@ -182,6 +257,25 @@ void require_same_windows(const SequenceOptions& before, const SequenceOptions& 
                                            window_text(before, axis), window_text(now, axis)));
     }
   }
+}
+
+void require_same_windows(const DozerOptions& before, const DozerOptions& now) {
+  const auto require = [](const char* drive, bool tried, const Window& one, bool again,
+                          const Window& other) {
+    if (tried && !(again && is_same(one, other))) {
+      throw std::runtime_error(fmt::format(
+          "{}: begun with another window ({:.3f} to {:.3f} m, {:.2f} m/s), now {}; begin newly",
+          drive, one.least_m, one.most_m, one.most_mps,
+          again ? fmt::format("{:.3f} to {:.3f} m, {:.2f} m/s", other.least_m, other.most_m,
+                              other.most_mps)
+                : std::string("none")));
+    }
+  };
+  for (std::size_t drive = 0; drive < 2; ++drive) {
+    require(kDozerDrives[drive], before.blade.drives[drive], before.blade.window[drive],
+            now.blade.drives[drive], now.blade.window[drive]);
+  }
+  require(kDozerDrives[2], before.tracks, before.way, now.tracks, now.way);
 }
 
 }  // namespace graben::commission

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "app/commission/commission_windows.hpp"
 #include "app/machines/profile_document.hpp"
@@ -88,6 +89,14 @@ void read_way(machines::TomlReader& reader, Window& way) {
   }
 }
 
+bool is_between(double least, double value, double most) { return least <= value && value <= most; }
+
+bool is_possible(const Window& window, const machines::Range& range, double most_mps) {
+  return is_between(range.least, window.least_m, range.most) &&
+         is_between(range.least, window.most_m, range.most) &&
+         is_between(kLeast_mps, window.most_mps, most_mps);
+}
+
 }  // namespace
 
 DozerOptions whole_dozer(const DozerProfile& profile) {
@@ -155,6 +164,27 @@ std::vector<std::string> dozer_window_texts(const DozerOptions& options) {
                     -options.way.least_m, options.way.most_m, options.way.most_mps));
   }
   return texts;
+}
+
+void require_possible(const DozerOptions& options) {
+  const auto require = [](std::size_t drive, bool possible, const Window& window) {
+    if (!possible) {
+      throw std::runtime_error(fmt::format("{}: from {:g} to {:g} m at {:g} m/s cannot be",
+                                           kDozerDrives[drive], window.least_m, window.most_m,
+                                           window.most_mps));
+    }
+  };
+  for (std::size_t drive = 0; drive < 2; ++drive) {
+    const Window& window = options.blade.window[drive];
+    const bool possible =
+        is_possible(window, {0.0, options.blade.stroke_m[drive], "m"}, kMost_mps) &&
+        window.most_m - window.least_m >= kLeastBlade_m;
+    require(drive, possible || !options.blade.drives[drive], window);
+  }
+  const Window& way = options.way;
+  const bool possible = is_possible(way, {-kMostWay_m, kMostWay_m, "m"}, kMostTravel_mps) &&
+                        way.least_m <= -kLeastWay_m && way.most_m >= kLeastWay_m;
+  require(2, possible || !options.tracks, way);
 }
 
 void read_dozer_windows(const std::filesystem::path& file, DozerOptions& options) {

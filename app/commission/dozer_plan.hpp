@@ -50,6 +50,9 @@ inline constexpr const char* kDozerDrives[] = {"blade", "tilt", "tracks"};
 /// A line for each drive that is tried: its window, as the operator confirms it.
 [[nodiscard]] std::vector<std::string> dozer_window_texts(const DozerOptions& options);
 
+/// Throws std::runtime_error unless each window that is tried is one that may be confirmed.
+void require_possible(const DozerOptions& options);
+
 /// Reads and checks windows: a table for each drive, [blade], [tilt], [tracks], with `least`,
 /// `most` (m; of the tracks behind, below 0, and before) and `speed` (m/s). A drive without one is
 /// not tried, for nobody has confirmed where it may go. Throws machines::ProfileError with every

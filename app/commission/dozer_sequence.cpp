@@ -21,6 +21,15 @@ DozerSequence::DozerSequence(const DozerOptions& options)
       travel_(planned_travel(options)),
       texts_(dozer_step_texts(options)) {}
 
+void DozerSequence::resume(const std::vector<StepResult>& results) {
+  blade_.resume(results);
+  for (std::size_t at = blade_.at(); at < results.size() && !is_done(); ++at) {
+    lead_.remember(travel_[travel_at_], results[at]);
+    travel_results_.push_back(results[at]);
+    ++travel_at_;
+  }
+}
+
 void DozerSequence::step(double time_s, const DozerSeen& seen) {
   tried_ = {};
   if (is_done()) {

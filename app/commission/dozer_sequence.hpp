@@ -25,6 +25,9 @@ class DozerSequence {
  public:
   explicit DozerSequence(const DozerOptions& options);
 
+  /// Goes on after steps that an earlier run has done; their results in order.
+  void resume(const std::vector<StepResult>& results);
+
   /// To be called every 10 ms. While not `active` nothing is tried, and the step that was
   /// interrupted begins again after.
   void step(double time_s, const DozerSeen& seen);

@@ -66,6 +66,12 @@ double TravelLead::level_ratio() const {
   return gain_mps > 0.0 ? std::min(wanted, kTravelOfMost * way_.most_mps / gain_mps) : wanted;
 }
 
+void TravelLead::remember(const TravelStep& step, const StepResult& result) {
+  if (!step.motor && result.duty > 0.0) {
+    most_gain_mps_ = std::max(most_gain_mps_, result.speed_mps / result.duty);
+  }
+}
+
 bool TravelLead::step(double position_m, double velocity_mps) {
   observe(position_m, velocity_mps);
   phase_s_ += kTravelPeriod_s;

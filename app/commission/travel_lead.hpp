@@ -13,6 +13,8 @@ class TravelLead {
  public:
   explicit TravelLead(const Window& way) : way_(way) {}
 
+  /// How fast the tracks were in a step of an earlier run, as if it had been led here.
+  void remember(const TravelStep& step, const StepResult& result);
   /// A step, from its beginning.
   void begin(const TravelStep& step);
   /// Every 10 ms from then on, with the measured position along the track and its rate; true once

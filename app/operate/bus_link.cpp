@@ -27,7 +27,8 @@ std::unique_ptr<HandSource> hands_for(const std::string& gamepad, bool keyboard)
   return std::make_unique<Gamepad>(gamepad.empty() ? only_gamepad(find_gamepads()) : gamepad);
 }
 
-BusLink::BusLink(std::string interface) : interface_(std::move(interface)) {
+BusLink::BusLink(std::string interface, std::uint32_t dbc_version)
+    : interface_(std::move(interface)), ecu_(dbc_version) {
   ports_.emplace_back(interface_, std::vector<std::uint32_t>{});
   if (!port().open()) {
     throw std::runtime_error(port().last_error());

@@ -26,7 +26,8 @@ class BusLink {
   using Tap = std::function<void(const CanFrame&)>;
 
   /// Throws std::runtime_error, with the reason, if there is no such interface or it is down.
-  explicit BusLink(std::string interface);
+  explicit BusLink(std::string interface,
+                   std::uint32_t dbc_version = EcuListener::Dbc::kDbcVersion);
 
   void set_tap(Tap tap) { tap_ = std::move(tap); }
 

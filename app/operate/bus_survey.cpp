@@ -3,24 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
-#include "app/commission/commission_plan.hpp"
+#include "app/commission/dozer_plan.hpp"
 #include "app/operate/bus_link.hpp"
 #include "app/operate/command_frames.hpp"
+#include "can_dbc/generated/dozer_dbc.hpp"
 #include "platform/linux/cyclic_clock.hpp"
 #include "platform/linux/process.hpp"
 
 namespace graben::operate {
 namespace {
-
-/// Seldom or only when there is something to say.
-bool may_be_missing(const dbc::MessageInfo& message, bool has_swing) {
-  using namespace dbc::excavator;
-  const bool of_swing = message.id == SwingState::kId || message.id == SwingValveState::kId ||
-                        message.id == SwingCommand::kId;
-  return message.id == DM1::kId || (of_swing && !has_swing);
-}
 
 bool is_operators(const dbc::MessageInfo& message) {
   return std::string_view(message.sender) == "Operator";
@@ -30,11 +24,30 @@ std::string identity_text(const char* who, const dbc::Count& hash, const dbc::Co
   return fmt::format("{}: profile {:08x}, DBC version {}", who, hash.value, version.value);
 }
 
+std::string stroke_text(const char* drive, const std::optional<double>& at_m, double stroke_m) {
+  const std::string stroke = at_m ? fmt::format("{:.3f} m", *at_m) : std::string("not heard");
+  return fmt::format("{} stroke: {} of {:.3f} m; has to rise as its cylinder extends", drive,
+                     stroke, stroke_m);
+}
+
 }  // namespace
+
+SurveyedBus surveyed_bus(const ExcavatorProfile& /*profile*/) {
+  const auto& all = dbc::excavator::kMessages;
+  return {all.data(), all.size(), dbc::excavator::kDbcVersion};
+}
+
+SurveyedBus surveyed_bus(const DozerProfile& /*profile*/) {
+  const auto& all = dbc::dozer::kMessages;
+  return {all.data(), all.size(), dbc::dozer::kDbcVersion};
+}
+
+BusSurvey::BusSurvey(const SurveyedBus& bus) : bus_(bus), ecu_(bus.dbc_version) {}
 
 void BusSurvey::hear(const CanFrame& frame, TimeUs now) {
   using Identity = EcuListener::Dbc::MachineIdentity;
   ecu_.hear(frame, now);
+  dozer_.hear(frame, now);
   if (!frame.extended) {
     ++short_ids_;
     return;
@@ -51,19 +64,20 @@ int BusSurvey::count(std::uint32_t id) const {
   return found == count_.end() ? 0 : found->second;
 }
 
-std::vector<std::string> BusSurvey::lines(const ExcavatorProfile& profile, double listened_s,
-                                          TimeUs now) const {
+std::vector<std::string> BusSurvey::common_lines(const std::vector<std::uint32_t>& may_miss,
+                                                 double listened_s) const {
   std::vector<std::string> lines;
   std::map<std::uint32_t, int> others = count_;
-  for (const dbc::MessageInfo& message : EcuListener::Dbc::kMessages) {
+  for (std::size_t n = 0; n < bus_.count; ++n) {
+    const dbc::MessageInfo& message = bus_.first[n];
     others.erase(identity_of(message.id));
     const int heard = count(message.id);
-    const bool has_swing = profile.drive_count == kDriveCount;
+    const bool may = std::find(may_miss.begin(), may_miss.end(), message.id) != may_miss.end();
     if (heard > 0) {
       const double expected = message.cycle_time_ms > 0 ? 1e3 / message.cycle_time_ms : 0.0;
       lines.push_back(fmt::format("{:<18} {:>6.1f} a second, {:g} expected", message.name,
                                   heard / listened_s, expected));
-    } else if (!is_operators(message) && !may_be_missing(message, has_swing)) {
+    } else if (!is_operators(message) && !may && message.id != dbc::excavator::DM1::kId) {
       lines.push_back(fmt::format("{:<18} missing, of {}", message.name, message.sender));
     }
   }
@@ -78,19 +92,49 @@ std::vector<std::string> BusSurvey::lines(const ExcavatorProfile& profile, doubl
   if (const auto& said = ecu_.identity().said) {
     lines.push_back(identity_text("controller", said->profile_hash, said->dbc_version));
   }
+  return lines;
+}
+
+std::vector<std::string> BusSurvey::lines(const ExcavatorProfile& profile, double listened_s,
+                                          TimeUs now) const {
+  using namespace dbc::excavator;
+  const std::vector<std::uint32_t> of_swing = {SwingState::kId, SwingValveState::kId,
+                                               SwingCommand::kId};
+  std::vector<std::string> lines = common_lines(
+      profile.drive_count == kDriveCount ? std::vector<std::uint32_t>{} : of_swing, listened_s);
   const auto strokes_m = ecu_.strokes_m(now);
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const auto k = static_cast<unsigned>(axis);
-    const std::string stroke =
-        strokes_m[k] ? fmt::format("{:.3f} m", *strokes_m[k]) : std::string("not heard");
-    lines.push_back(fmt::format("{} stroke: {} of {:.3f} m; has to rise as its cylinder extends",
-                                commission::axis_name(axis), stroke,
+    lines.push_back(stroke_text(commission::axis_name(axis), strokes_m[k],
                                 profile.geometry.cylinder[k].stroke_m));
   }
   return lines;
 }
 
-std::string BusSurvey::obstacle(std::uint32_t profile_hash, TimeUs now) const {
+std::vector<std::string> BusSurvey::lines(const DozerProfile& profile, double listened_s,
+                                          TimeUs now) const {
+  using namespace dbc::dozer;
+  std::vector<std::uint32_t> may_miss;
+  if (!profile.tilt.present) {
+    may_miss.push_back(TiltState::kId);
+  }
+  if (!profile.grade.curves()) {
+    may_miss.push_back(BodyCourse::kId);
+  }
+  std::vector<std::string> lines = common_lines(may_miss, listened_s);
+  const commission::DozerOptions whole = commission::whole_dozer(profile);
+  for (std::size_t drive = 0; drive < (profile.tilt.present ? 2U : 1U); ++drive) {
+    lines.push_back(stroke_text(commission::kDozerDrives[drive], dozer_.stroke_m(drive, now),
+                                whole.blade.stroke_m[drive]));
+  }
+  const auto position_m = dozer_.position_m(now);
+  lines.push_back(
+      position_m ? fmt::format("body: at {:.2f} m; has to rise as it goes forward", *position_m)
+                 : std::string("body: its position is not heard"));
+  return lines;
+}
+
+std::string BusSurvey::common_obstacle(std::uint32_t profile_hash, TimeUs now) const {
   if (const auto other = ecu_.other_station()) {
     return fmt::format(
         "another station sends OperatorCommand (source address {}); two at a time "
@@ -102,24 +146,38 @@ std::string BusSurvey::obstacle(std::uint32_t profile_hash, TimeUs now) const {
   }
   if (const auto version = ecu_.other_version()) {
     return fmt::format("the controller's frames are version {}, this station's {}", *version,
-                       EcuListener::Dbc::kDbcVersion);
+                       ecu_.dbc_version());
   }
   const dbc::Count& hash = ecu_.identity().said->profile_hash;
   if (hash.value != profile_hash) {
     return fmt::format("the controller has another profile ({:08x}, this one's is {:08x})",
                        hash.value, profile_hash);
   }
-  for (const auto& stroke_m : ecu_.strokes_m(now)) {
-    if (!stroke_m) {
-      return "a stroke is not heard, or is not valid";
-    }
-  }
   return "";
 }
 
-BusSurvey survey_bus(const std::string& interface, double listen_s, TimeUs& end_us) {
-  BusLink link(interface);
-  BusSurvey survey;
+std::string BusSurvey::obstacle(const ExcavatorProfile& /*profile*/, std::uint32_t profile_hash,
+                                TimeUs now) const {
+  std::string obstacle = common_obstacle(profile_hash, now);
+  for (const auto& stroke_m : ecu_.strokes_m(now)) {
+    if (obstacle.empty() && !stroke_m) {
+      obstacle = "a stroke is not heard, or is not valid";
+    }
+  }
+  return obstacle;
+}
+
+std::string BusSurvey::obstacle(const DozerProfile& profile, std::uint32_t profile_hash,
+                                TimeUs now) const {
+  const std::string obstacle = common_obstacle(profile_hash, now);
+  const bool lacks = obstacle.empty() && !dozer_.hears_machine(profile.tilt.present, now);
+  return lacks ? "a stroke or the body's pose is not heard, or is not valid" : obstacle;
+}
+
+BusSurvey survey_bus(const std::string& interface, const SurveyedBus& bus, double listen_s,
+                     TimeUs& end_us) {
+  BusLink link(interface, bus.dbc_version);
+  BusSurvey survey(bus);
   end_us = monotonic_now_us();
   link.set_tap([&](const CanFrame& frame) { survey.hear(frame, end_us); });
   CyclicClock clock(CommandFrames::kPeriod_us);

@@ -22,16 +22,6 @@ constexpr SendRule kAxesRule = send_rule<Dbc::OperatorAxes>(0, nullptr);
 using Touched = Dbc::TouchedPoint;
 constexpr SendRule kTouchRule = send_rule<Touched>(0, nullptr);
 
-dbc::Payload command_payload(const Request& request, dbc::Count echo) {
-  Command command;
-  command.enable = {request.enable ? Command::Enable::kOn : Command::Enable::kOff, kValid};
-  command.operator_mode = {static_cast<Command::OperatorMode>(request.mode), kValid};
-  command.task = {static_cast<Command::Task>(request.task), kValid};
-  command.speed_override_ratio = {request.speed_override_ratio, kValid};
-  command.echo = echo;
-  return command.encode();
-}
-
 /// A step of the message less, towards the middle and no further.
 double one_step_less(double ratio) {
   return std::copysign(std::max(0.0, std::abs(ratio) - kLeverStep), ratio);
@@ -50,6 +40,16 @@ dbc::Payload axes_payload(const Axes& axes, bool less) {
 }
 
 }  // namespace
+
+dbc::Payload command_payload(const Request& request, dbc::Count echo) {
+  Command command;
+  command.enable = {request.enable ? Command::Enable::kOn : Command::Enable::kOff, kValid};
+  command.operator_mode = {static_cast<Command::OperatorMode>(request.mode), kValid};
+  command.task = {static_cast<Command::Task>(request.task), kValid};
+  command.speed_override_ratio = {request.speed_override_ratio, kValid};
+  command.echo = echo;
+  return command.encode();
+}
 
 CommandPair CommandFrames::next(const Request& request, dbc::Count echo, TimeUs now) {
   const bool less = less_;

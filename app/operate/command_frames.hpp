@@ -20,6 +20,9 @@ inline constexpr double kLeverStep = 0.008;
 /// Both of a cycle: enable first.
 using CommandPair = std::array<CanFrame, 2>;
 
+/// OperatorCommand, which all kinds share.
+[[nodiscard]] dbc::Payload command_payload(const Request& request, dbc::Count echo);
+
 class CommandFrames {
  public:
   static constexpr TimeUs kPeriod_us = 20 * kMillisecondUs;

@@ -29,17 +29,17 @@ TimeUs date_offset_us() {
   return std::chrono::duration_cast<std::chrono::microseconds>(date).count() - monotonic_now_us();
 }
 
-CommissionSetup setup_of(const LiveCommission& options) {
-  return {options.progress.options, options.progress.results, options.progress.profile_hash,
-          options.silent_after_us};
-}
-
+template <class Lead>
 class CommissionSession {
  public:
-  explicit CommissionSession(const LiveCommission& options)
+  using Progress = commission::ProgressOf<typename Lead::Options>;
+
+  CommissionSession(const LiveOptions& options, const Progress& progress)
       : options_(options),
-        link_(options.interface),
-        station_(setup_of(options)),
+        progress_(progress),
+        link_(options.interface, Lead::kDbcVersion),
+        station_(
+            {progress.options, progress.results, progress.profile_hash, options.silent_after_us}),
         log_(options.log, options.interface, CandumpLog::Form::kGrows) {
     if (!signals_.error().empty()) {
       throw std::runtime_error(signals_.error().c_str());
@@ -47,6 +47,7 @@ class CommissionSession {
     // After the signals: they give the terminal back first.
     hands_ = hands_for(options.gamepad, options.keyboard);
     link_.set_tap([this](const CanFrame& frame) {
+      station_.hear(frame, heard_us_);
       log_.write(frame, static_cast<TimeUs>(frame.stamp_us) + offset_us_);
     });
   }
@@ -57,60 +58,75 @@ class CommissionSession {
   void listen();
   void work();
   void let_go();
-  void send(const Request& request, const TriedDuties& tried, TimeUs now);
+  void send(const Request& request, const typename Lead::Tried& tried, TimeUs now);
+  void hear(TimeUs now);
   void keep_results();
   void tell(const std::string& line, TimeUs now);
 
-  LiveCommission options_;
+  LiveOptions options_;
+  Progress progress_;
   BusLink link_;
   ecu::EndSignals signals_{link_.last_frames(), link_.ports()};
   std::unique_ptr<HandSource> hands_;
-  CommissionStation station_;
-  CommissionFrames frames_;
+  CommissionStationOf<Lead> station_;
+  typename Lead::Frames frames_;
   CandumpLog log_;
   TimeUs offset_us_ = date_offset_us();
   Display display_;
-  CyclicClock clock_{CommissionStation::kPeriod_us};
+  CyclicClock clock_{CommissionStationOf<Lead>::kPeriod_us};
   TimeUs began_us_ = monotonic_now_us();
+  TimeUs heard_us_ = began_us_;  ///< Of the cycle.
 };
 
-void CommissionSession::send(const Request& request, const TriedDuties& tried, TimeUs now) {
+template <class Lead>
+void CommissionSession<Lead>::send(const Request& request, const typename Lead::Tried& tried,
+                                   TimeUs now) {
   const std::vector<CanFrame> frames = frames_.next(request, tried, link_.ecu().echo(), now);
-  const CommandPair last = frames_.last_words(now);
+  const auto last = frames_.last_words(now);
   link_.send(frames, last);
 }
 
-void CommissionSession::tell(const std::string& line, TimeUs now) {
+template <class Lead>
+void CommissionSession<Lead>::tell(const std::string& line, TimeUs now) {
   display_.tell(static_cast<double>(now - began_us_) * 1e-6, line);
 }
 
-void CommissionSession::listen() {
+template <class Lead>
+void CommissionSession<Lead>::hear(TimeUs now) {
+  heard_us_ = now;
+  link_.hear(now);
+}
+
+template <class Lead>
+void CommissionSession<Lead>::listen() {
   for (int cycle = 0; cycle < kListensFor && !stop_requested(); ++cycle) {
     const TimeUs now = clock_.wait().now_us;
-    link_.hear(now);
+    hear(now);
     static_cast<void>(hands_->read(now));
   }
   link_.refuse_other_station();
 }
 
 /// Between two steps nothing moves: what the file takes costs a pause at most.
-void CommissionSession::keep_results() {
-  const auto& results = station_.sequence().results();
-  if (results.size() == options_.progress.results.size()) {
+template <class Lead>
+void CommissionSession<Lead>::keep_results() {
+  const auto results = station_.sequence().results();
+  if (results.size() == progress_.results.size()) {
     return;
   }
-  options_.progress.results = results;
-  commission::write_progress(commission::progress_file(options_.log), options_.progress);
-  tell(result_line(station_.sequence(), results.size() - 1), monotonic_now_us());
+  progress_.results = results;
+  commission::write_progress(commission::progress_file(options_.log), progress_);
+  tell(result_line(station_.lead(), results.size() - 1), monotonic_now_us());
 }
 
-void CommissionSession::work() {
+template <class Lead>
+void CommissionSession<Lead>::work() {
   bool quits = false;
   for (int cycle = 0; !stop_requested() && !quits && station_.end() == CommissionEnd::kNone;
        ++cycle) {
     const CyclicClock::Cycle at = clock_.wait();
     link_.mend(at.now_us);
-    link_.hear(at.now_us);
+    hear(at.now_us);
     link_.refuse_other_station();
     const Hands hands = hands_->read(at.now_us);
     const Trouble trouble =
@@ -128,20 +144,21 @@ void CommissionSession::work() {
   }
 }
 
-void CommissionSession::let_go() {
-  TriedDuties nothing = station_.tried();
-  nothing.duty_ratio = {};
+template <class Lead>
+void CommissionSession<Lead>::let_go() {
+  const auto nothing = station_.lead().tried(false);
   for (int cycle = 0; cycle < kEndsFor; ++cycle) {
     const TimeUs now = clock_.wait().now_us;
-    link_.hear(now);
+    hear(now);
     if (cycle % 2 == 0) {
       send({}, nothing, now);
     }
   }
-  link_.hear(monotonic_now_us());
+  hear(monotonic_now_us());
 }
 
-LiveResult CommissionSession::run() {
+template <class Lead>
+LiveResult CommissionSession<Lead>::run() {
   listen();
   try {
     work();
@@ -153,14 +170,19 @@ LiveResult CommissionSession::run() {
   let_go();
   log_.close();
   const auto& sequence = station_.sequence();
-  return {station_.end(), station_.end_words(), sequence.results().size(), sequence.steps().size(),
+  return {station_.end(), station_.end_words(), sequence.results().size(), station_.lead().steps(),
           sequence.active_s()};
 }
 
 }  // namespace
 
-LiveResult run_live_commission(const LiveCommission& options) {
-  return CommissionSession(options).run();
+LiveResult run_live_commission(const LiveOptions& options, const commission::Progress& progress) {
+  return CommissionSession<ExcavatorLead>(options, progress).run();
+}
+
+LiveResult run_live_commission(const LiveOptions& options,
+                               const commission::DozerProgress& progress) {
+  return CommissionSession<DozerLead>(options, progress).run();
 }
 
 }  // namespace graben::operate

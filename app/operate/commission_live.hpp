@@ -10,13 +10,12 @@
 
 namespace graben::operate {
 
-struct LiveCommission {
+struct LiveOptions {
   std::string interface;
   std::string gamepad;    ///< Path; empty: the only one there is.
   bool keyboard = false;  ///< In place of a gamepad.
   TimeUs silent_after_us = 20 * kSecondUs;
-  std::filesystem::path log;      ///< candump log; grows.
-  commission::Progress progress;  ///< What is to be done, and what is done already.
+  std::filesystem::path log;  ///< candump log; grows.
 };
 
 struct LiveResult {
@@ -32,6 +31,10 @@ struct LiveResult {
 /// if it dies by a signal that can be caught. The log has all frames, with the date, and is in the
 /// file after 0.2 s at most; the progress file is written after every step, while nothing moves.
 /// Throws std::runtime_error, with the reason, if it cannot begin or may not go on.
-[[nodiscard]] LiveResult run_live_commission(const LiveCommission& options);
+/// `progress`: what is to be done, and what is done already.
+[[nodiscard]] LiveResult run_live_commission(const LiveOptions& options,
+                                             const commission::Progress& progress);
+[[nodiscard]] LiveResult run_live_commission(const LiveOptions& options,
+                                             const commission::DozerProgress& progress);
 
 }  // namespace graben::operate

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commission/commission_sequence.hpp"
-#include "app/operate/commission_frames.hpp"
+#include "app/operate/commission_lead.hpp"
 #include "app/operate/ecu_listener.hpp"
 #include "app/operate/station.hpp"
 
@@ -24,8 +23,9 @@ enum class CommissionEnd : std::uint8_t {
   kOtherProfile,  ///< The controller has another profile than the one that was begun with.
 };
 
-struct CommissionSetup {
-  commission::SequenceOptions sequence;
+template <class Lead>
+struct CommissionSetupOf {
+  typename Lead::Options sequence;
   std::vector<commission::StepResult> done;  ///< By an earlier run.
   std::uint32_t profile_hash = 0;
   TimeUs silent_after_us = 20 * kSecondUs;  ///< As StationOptions; a still hand holds for minutes.
@@ -36,19 +36,23 @@ struct CommissionSetup {
 /// and no window that has not reached the controller keeps it from trying them: what was
 /// interrupted begins again. Ends when all is done, when the controller stops by a fault after it
 /// was armed, or when a stroke goes the wrong way; from then on nothing is asked for.
-class CommissionStation {
+template <class Lead>
+class CommissionStationOf {
  public:
   static constexpr TimeUs kPeriod_us = 10 * kMillisecondUs;
 
-  explicit CommissionStation(const CommissionSetup& setup);
+  explicit CommissionStationOf(const CommissionSetupOf<Lead>& setup);
 
+  /// Every frame of the bus.
+  void hear(const CanFrame& frame, TimeUs now) { lead_.hear(frame, now); }
   /// Every kPeriod_us, after `ecu` has heard what has come.
   void step(const Hands& hands, Trouble around, const EcuListener& ecu, TimeUs now);
 
   [[nodiscard]] const Request& request() const { return request_; }
-  [[nodiscard]] const TriedDuties& tried() const { return tried_; }
+  [[nodiscard]] const typename Lead::Tried& tried() const { return tried_; }
   [[nodiscard]] const Deadman& deadman() const { return deadman_; }
-  [[nodiscard]] const commission::CommissionSequence& sequence() const { return sequence_; }
+  [[nodiscard]] const typename Lead::Sequence& sequence() const { return lead_.sequence(); }
+  [[nodiscard]] const Lead& lead() const { return lead_; }
   [[nodiscard]] CommissionEnd end() const { return end_; }
   [[nodiscard]] bool is_moving() const { return moving_; }
   /// What was wrong and what to do about it; empty unless it has ended before all was done.
@@ -57,15 +61,12 @@ class CommissionStation {
  private:
   [[nodiscard]] bool is_held(const EcuListener& ecu);
   void look_for_end(const EcuListener& ecu, TimeUs now);
-  [[nodiscard]] bool hears_strokes(const EcuListener& ecu, TimeUs now);
 
-  CommissionSetup setup_;
-  commission::CommissionSequence sequence_;
+  CommissionSetupOf<Lead> setup_;
+  Lead lead_;
   Deadman deadman_;
   Request request_;
-  TriedDuties tried_;
-  std::array<double, kAxisCount> stroke_m_{};
-  double swing_rad_ = 0.0;
+  typename Lead::Tried tried_;
   bool moving_ = false;
   double held_s_ = 0.0;     ///< For so long in a row the controller has held the drive back.
   bool was_armed_ = false;  ///< Since the deadman was pressed last.
@@ -73,12 +74,20 @@ class CommissionStation {
   Fault fault_ = Fault::kNone;
 };
 
+extern template class CommissionStationOf<ExcavatorLead>;
+extern template class CommissionStationOf<DozerLead>;
+
+using CommissionSetup = CommissionSetupOf<ExcavatorLead>;
+using CommissionStation = CommissionStationOf<ExcavatorLead>;
+using DozerStation = CommissionStationOf<DozerLead>;
+
 /// What the operator should know at a time, in a line; it changes seldom.
-[[nodiscard]] std::string commission_line(const CommissionStation& station, const EcuListener& ecu,
-                                          TimeUs now);
+template <class Lead>
+[[nodiscard]] std::string commission_line(const CommissionStationOf<Lead>& station,
+                                          const EcuListener& ecu, TimeUs now);
 /// What became of the step with this number: "boom, extending: ramp to its edge: done, duty 41.2 %,
 /// 63 mm/s".
-[[nodiscard]] std::string result_line(const commission::CommissionSequence& sequence,
-                                      std::size_t at);
+template <class Lead>
+[[nodiscard]] std::string result_line(const Lead& lead, std::size_t at);
 
 }  // namespace graben::operate

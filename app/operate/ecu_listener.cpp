@@ -138,7 +138,7 @@ std::optional<std::uint32_t> EcuListener::other_version() const {
     return std::nullopt;
   }
   const dbc::Count& version = identity_.said->dbc_version;
-  const bool is_ours = version.state == dbc::RawState::kValid && version.value == Dbc::kDbcVersion;
+  const bool is_ours = version.state == dbc::RawState::kValid && version.value == dbc_version_;
   return is_ours ? std::nullopt : std::optional<std::uint32_t>(version.value);
 }
 

@@ -33,6 +33,9 @@ struct Heard {
 class EcuListener {
  public:
   using Dbc = dbc::excavator::Dbc;
+  /// Of a controller with frames of this version: each kind's DBC has its own.
+  explicit EcuListener(std::uint32_t dbc_version = Dbc::kDbcVersion) : dbc_version_(dbc_version) {}
+
   /// Five frames of EcuStatus in a row.
   static constexpr TimeUs kStatusTimeout_us = 100 * kMillisecondUs;
   /// What DM1 has not repeated for so long is over: each code comes within 1 s.
@@ -61,6 +64,7 @@ class EcuListener {
   }
   /// As said last, if the ECU is heard.
   [[nodiscard]] std::optional<EcuMode> mode(TimeUs now) const;
+  [[nodiscard]] std::uint32_t dbc_version() const { return dbc_version_; }
   /// The version that the ECU says, if it is not ours.
   [[nodiscard]] std::optional<std::uint32_t> other_version() const;
   /// Source address of another OperatorCommand, if one was heard.
@@ -94,6 +98,7 @@ class EcuListener {
   j1939::BamReceiver troubles_{j1939::kActiveCodesPgn, kOwnAddress};  ///< DM1 of several codes.
   std::map<std::uint32_t, TimeUs> trouble_us_;  ///< SPN -> when it was said last.
   std::optional<std::uint8_t> other_station_;
+  std::uint32_t dbc_version_;
   StampEcho<Dbc::EcuIdentity> echo_;
 };
 

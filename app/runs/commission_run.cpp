@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/runs/commission_run.hpp"
 
-#include <optional>
-
 #include "app/runs/excavator_rig.hpp"
 #include "can_dbc/generated/excavator_dbc.hpp"
 
@@ -54,7 +52,9 @@ class Ear {
   LoopbackPort& port_;
 };
 
-identify::LoggedFrame logged(const CanFrame& frame) {
+}  // namespace
+
+identify::LoggedFrame logged_frame(const CanFrame& frame) {
   identify::LoggedFrame line;
   line.time_s = seconds(frame.stamp_us);
   line.id = frame.id;
@@ -63,8 +63,6 @@ identify::LoggedFrame logged(const CanFrame& frame) {
   line.data = frame.data;
   return line;
 }
-
-}  // namespace
 
 CommissionOptions usual_commission(const machines::SimulatedExcavator& machine) {
   CommissionOptions options;
@@ -76,26 +74,13 @@ CommissionOptions usual_commission(const machines::SimulatedExcavator& machine) 
 }
 
 CommissionResult run_commission(const machines::SimulatedExcavator& machine,
-                                const CommissionOptions& options,
-                                const std::function<void(const identify::LoggedFrame&)>& take,
+                                const CommissionOptions& options, const TakeFrame& take,
                                 const Progress& progress) {
   ExcavatorRig rig(machine, machine.profile, start_at(options.start_strokes_m), Task::kCommission,
                    1.0);
   LoopbackPort& port = rig.bus.attach();
   static_cast<void>(port.open());
   Ear ear(port);
-  std::optional<CandumpLog> log;
-  if (!options.log_file.empty()) {
-    log.emplace(options.log_file, "vcan0");
-  }
-  rig.bus.set_tap([&](const CanFrame& frame) {
-    if (log) {
-      log->write(frame, frame.stamp_us);
-    }
-    if (take) {
-      take(logged(frame));
-    }
-  });
   commission::CommissionSequence sequence(options.sequence);
   plant::OperatorHands hands;
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
@@ -104,9 +89,7 @@ CommissionResult run_commission(const machines::SimulatedExcavator& machine,
       hands.window[axis] = StrokeWindow{window.least_m, window.most_m, window.most_mps};
     }
   }
-  CommissionResult result;
-  TimeUs now_us = 0;
-  for (; !sequence.is_done(); now_us += ExcavatorRig::kPeriod_us) {
+  const auto try_next = [&](TimeUs now_us) {
     ear.listen();
     sequence.step(seconds(now_us),
                   {ear.strokes_m, ear.sent_ratio, ear.mode == bus::EcuStatus::Mode::kActive,
@@ -114,40 +97,10 @@ CommissionResult run_commission(const machines::SimulatedExcavator& machine,
     hands.tried_ratio = sequence.duty();
     hands.lever_ratio[kSwing] = sequence.swing_duty();
     rig.driver.set_hands(hands);
-    static_cast<void>(rig.step(now_us));
-    const ExcavatorStatus& status = rig.ecu->outputs().status;
-    if (status.mode == EcuMode::kFault) {
-      result.end = CommissionEnd::kFault;
-      result.fault = status.fault;
-      break;
-    }
-    if (sequence.wrong()) {
-      result.end = CommissionEnd::kWrongWay;
-      result.wrong = sequence.wrong();
-      break;
-    }
-    if (seconds(now_us) > kCommissionMost_s) {
-      result.end = CommissionEnd::kTooLong;
-      break;
-    }
-    if (!sequence.is_done()) {
-      progress(static_cast<double>(sequence.at()) / static_cast<double>(sequence.steps().size()),
-               step_text(sequence.steps()[sequence.at()]));
-    }
-  }
-  rig.release();
-  for (const TimeUs end_us = now_us + 500 * kMillisecondUs; now_us < end_us;
-       now_us += ExcavatorRig::kPeriod_us) {
-    static_cast<void>(rig.step(now_us));
-  }
-  rig.bus.set_tap(nullptr);
-  if (log) {
-    log->close();
-  }
-  result.step = sequence.at();
-  result.machine_s = sequence.active_s();
-  result.steps = sequence.results();
-  return result;
+  };
+  const auto words = [&sequence](std::size_t at) { return step_text(sequence.steps()[at]); };
+  return lead_commission(rig, sequence, options.log_file, take, try_next, sequence.steps().size(),
+                         words, progress);
 }
 
 }  // namespace graben::runs

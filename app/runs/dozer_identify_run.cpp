@@ -192,12 +192,12 @@ DozerIdentifyResult run_dozer_identification(const machines::SimulatedDozer& hid
   DozerIdentifyResult result;
   DozerIdentifySummary& summary = result.summary;
   identify::DozerCollector frames("bus");
-  const DozerCommissionResult done = run_dozer_commission(
+  const CommissionResult done = run_dozer_commission(
       hidden, commission::whole_dozer(hidden.profile), {},
       [&](const identify::LoggedFrame& frame) { frames.take(frame); },
       [&](double share, const std::string& where) { progress(0.3 * share, where); });
   summary.commissioning_s = done.machine_s;
-  if (done.end != DozerCommissionEnd::kDone) {
+  if (done.end != CommissionEnd::kDone) {
     result.end = DozerIdentifyEnd::kCommissioningStopped;
     result.fault = done.fault;
     return result;

@@ -32,11 +32,15 @@ def whole(here):
     assert machine_s < 300.0, text
     assert "there already" in call(here, "commission", "--profile", "dozer_9t_tilt", "--log", "all.log", status=1)
     text = call(here, "identify", "--log", "all.log", "--profile", "dozer_9t_tilt", "--out", "better.toml",
-                "--summary", "found.json")
+                "--summary", "found.json", "--report", "page.html")
     assert "commissioned: every drive, both sides, and the tracks" in text, text
     for name, (old, new) in scores(text).items():
         assert new < 0.75 * old, (name, old, new)
-    assert "not found: the gauge" in text, text
+    assert "not found: the gauge" in text and "report   page.html" in text, text
+    page = (here / "page.html").read_text(encoding="utf-8")
+    for needle in ("tilt, retracting", "implement.answer.tilt.retract.dead_time", "not found: the gauge", "<svg"):
+        assert needle in page, needle
+    assert page.count("<svg") == 4 and "http" not in page.replace("http://www.w3.org", ""), page[:500]
     found = json.loads((here / "found.json").read_text(encoding="ascii"))["found"]
     assert found["implement.answer.tilt.retract.dead_time"]["deviation"], found
     checked = call(here, "identify", "--check", "--log", "all.log", "--profile", "better.toml", "--before",
@@ -63,7 +67,7 @@ def part(here):
     slow = call(here, "grade", "--profile", "blade.toml", "--unknown-drives", "slow", "--out", "slow")
     assert "not commissioned: tracks: at 30 % of the speed" in slow, slow
     for words, said in ((("--only", "swing"), "no such drive"), (("--no-touch", "boom-extended"), "--no-touch"),
-                        (("--can", "vcan9"), "simulated machine alone"),
+                        (("--can", "vcan9"), "a dozer's windows are confirmed by a file"),
                         (("--simulated", "excavator_22t"), "--simulated")):
         text = call(here, "commission", "--profile", "dozer_9t", "--log", "none.log", *words, status=1)
         assert said in text, text

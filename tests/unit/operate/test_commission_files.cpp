@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the operator confirms, and what is kept to go on after a break.
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -11,27 +10,13 @@
 #include "app/commission/wrong_way.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/fixture.hpp"
+#include "tests/unit/operate/folder.hpp"
 
 using namespace graben::commission;
 namespace fs = std::filesystem;
+using test::Folder;
 
 SequenceOptions whole() { return whole_sequence(test::excavator().profile); }
-
-/// A folder of its own, gone with it.
-struct Folder {
-  Folder() : path(fs::temp_directory_path() / fs::path("graben_commission_XXXXXX")) {
-    std::string name = path.string();
-    assert_non_null(mkdtemp(name.data()));
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  [[nodiscard]] fs::path file(const std::string& text) const {
-    const fs::path file = path / "file";
-    std::ofstream(file) << text;
-    return file;
-  }
-  fs::path path;
-};
 
 template <class Work>
 std::string refusal(const Work& work) {

@@ -141,9 +141,9 @@ TEST(all_of_it_within_five_minutes) {
     machine.plant.sensor_errors = true;
     machine.plant.seed = 3;
     const commission::DozerOptions options = commission::whole_dozer(machine.profile);
-    const runs::DozerCommissionResult result = runs::run_dozer_commission(
+    const runs::CommissionResult result = runs::run_dozer_commission(
         machine, options, {}, nullptr, [](double, const std::string&) {});
-    assert_int_equal(result.end, runs::DozerCommissionEnd::kDone);
+    assert_int_equal(result.end, runs::CommissionEnd::kDone);
     assert_int_equal(result.steps.size(), commission::dozer_step_texts(options).size());
     print_message("%s: %.0f s\n", name, result.machine_s);
     assert_true(result.machine_s < 150.0);
