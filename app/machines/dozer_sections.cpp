@@ -186,6 +186,12 @@ DozerControl read_control(TomlReader& reader) {
                                              "integral part of the blade controller");
   control.blade_integral_most_mps =
       reader.number("control.blade_integral_most", {0.0, 1.0, "m/s"}, "bound of the integral part");
+  if (reader.lists() || reader.has("control.learns")) {
+    control.learns = reader.boolean_or(
+        true, "control.learns",
+        "the share that the pump gives and the tracks' slip in turns are learnt at work; false: "
+        "both are as told");
+  }
   return control;
 }
 

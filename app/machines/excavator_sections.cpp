@@ -282,6 +282,12 @@ ControlProfile read_control(TomlReader& reader) {
                     "low-pass of the load that the valve's model compensates");
   control.slow_error_m = reader.number("control.slow_error", {1e-3, 10.0, "m"},
                                        "path error at which the speed along the path is halved");
+  if (reader.lists() || reader.has("control.learns")) {
+    control.learns = reader.boolean_or(true, "control.learns",
+                                       "valves, the oil's stiffness and lasting lags of drives are "
+                                       "learnt at work; false: all of it "
+                                       "is as told");
+  }
   if (control.approach_outer_m <= control.approach_inner_m) {
     reader.fail("control.approach_outer",
                 fmt::format("{} m; allowed: more than approach_inner, {} m",

@@ -187,6 +187,7 @@ struct DozerControl {
   double blade_gain_ps = 0.0;          ///< Height error to velocity.
   double blade_integral_ps2 = 0.0;
   double blade_integral_most_mps = 0.0;
+  bool learns = true;  ///< The pump's share and the tracks' slip; else both are as told.
 };
 
 /// Bounds that the watches hold the machine to.

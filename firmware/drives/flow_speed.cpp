@@ -23,7 +23,7 @@ Opening opening_of(const DriveRow& drive, const LearntValve* learnt, double spoo
   double opening = opening_at(answer, travel_ratio);
   double band = kFlowTravelBand / least_travel_per_opening(answer, travel_ratio - kFlowTravelBand,
                                                            travel_ratio + kFlowTravelBand);
-  if (is_learnt(drive) && learnt != nullptr) {
+  if (has_edges(drive) && learnt != nullptr) {
     const LearntSide& side = learnt->side(spool_ratio > 0.0);
     opening = opening_by_profile(side, opening);
     // At its edge a valve's exponent says nothing, a little further it does.

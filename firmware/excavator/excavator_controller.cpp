@@ -53,8 +53,10 @@ bool ExcavatorController::begin(const LearntDrives& learnt) {
   if (!is_sound(learnt) || !memory_.intact()) {
     return false;
   }
-  begin_learnt(learnt, memory_->inputs.watch.drives);
-  memory_.seal();
+  if (machine_.profile.control.learns) {
+    begin_learnt(learnt, memory_->inputs.watch.drives);
+    memory_.seal();
+  }
   return true;
 }
 

@@ -124,8 +124,11 @@ DriveRow section_row(const ExcavatorProfile& profile, int drive) {
   row.feedback = {control.servo_gain_ps,      control.servo_most_m,       control.servo_most_m,
                   control.servo_least_lambda, control.servo_frequency_hz, control.servo_damping,
                   profile.line.trim_ps2,      profile.line.trim_most_mps};
+  row.control.learns = control.learns;
   if (control.law == ControlLaw::kKim) {
     row.feedback.gain_ps = 0.0;
+  }
+  if (control.law == ControlLaw::kKim || !control.learns) {
     row.feedback.bias_ps2 = 0.0;
   }
   row.watch.senses_spool = profile.bus.spool_feedback;

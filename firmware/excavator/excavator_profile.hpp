@@ -219,6 +219,8 @@ struct ControlProfile {
   double pressure_filter_s = 0.0;    ///< Low-pass of the load that the valve's model compensates.
   double slow_error_m = 0.0;         ///< Path error at which the speed along the path is halved.
   double dead_time_s = 0.0;          ///< From a duty to the spool's first movement.
+  /// Valves, the oil's stiffness and lasting lags are learnt at work; else all is as told.
+  bool learns = true;
 };
 
 /// Bounds that the watches hold the machine to. Ranges are checked where it is read.

@@ -29,6 +29,7 @@ struct DriveControl {
   Limit at_end{LimitKind::kStrokeEnd, 0};  ///< Reported where an end of the travel slows.
   bool has_end_stops = true;  ///< Nothing takes the drive beyond the ends of its travel.
   bool holds_itself = false;  ///< Closed, its spool needs no correction to hold the drive.
+  bool learns = true;         ///< What its valve turns out to be is learnt at work.
 };
 
 /// Feedback around the valve's model, see drive_servo.hpp.

@@ -84,7 +84,10 @@ void estimate(const DozerModel& machine, const DozerValid& valid, const Cycle& c
                      : PushState{};
     next_foretelling(profile.body, state.ground, state.design, driving_of(machine, valid, state),
                      period_s, state.foretelling);
-    state.flow = next_flow_share(profile, state.flow, flow_now(valid, last, state.servo), period_s);
+    if (profile.control.learns) {
+      state.flow =
+          next_flow_share(profile, state.flow, flow_now(valid, last, state.servo), period_s);
+    }
     watch_fall(machine, valid, period_s, last, state);
     const double latency_s = profile.control.pose_latency_s;
     const BladeSituation now =

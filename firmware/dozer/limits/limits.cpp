@@ -62,10 +62,10 @@ Travel flow_limited(const DozerModel& machine, const DozerValid& valid,
   if (design.curves()) {
     const double reach_m = machine.reach_m();
     travel.off_track_m = edge_course(design, valid.position_m, valid.course, reach_m).offset_m;
-    travel.steering =
-        steer(design, state.steering,
-              {valid.position_m, reach_m, state.speed.speed_mps, valid.velocity_mps, valid.course},
-              period_s);
+    travel.steering = steer(design, state.steering,
+                            {valid.position_m, reach_m, state.speed.speed_mps, valid.velocity_mps,
+                             valid.course, profile.control.learns},
+                            period_s);
   }
   travel.speed = choose_speed(machine, valid, estimates, preview, motion,
                               travel.steering.curvature_pm, period_s, state.speed);

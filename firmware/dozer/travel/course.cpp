@@ -63,7 +63,7 @@ EdgeCourse edge_course(const GradeProfile& design, double x_m, const Course& cou
 SteeringState steer(const GradeProfile& design, const SteeringState& last,
                     const SteeringSituation& now, double period_s) {
   SteeringState state = last;
-  if (std::abs(now.measured_mps) > kCourseTrimLeast_mps) {
+  if (now.learns && std::abs(now.measured_mps) > kCourseTrimLeast_mps) {
     const double lost_radps = last.wanted_radps - now.course.yaw_rate_radps;
     const double share = period_s / (kCourseTrim_s * now.measured_mps);
     state.trim_pm =

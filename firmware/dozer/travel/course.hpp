@@ -48,6 +48,7 @@ struct SteeringSituation {
   double speed_mps = 0.0;  ///< That it is to have; backward is negative.
   double measured_mps = 0.0;
   Course course;
+  bool learns = true;  ///< What the tracks slip of a turn.
 };
 
 /// Forward the edge is what steers: it comes back to the track within kComeBack_m of way, and the

@@ -148,7 +148,7 @@ void feel_still(const LearntSeen& mean, const LearntSeen& now, double period_s, 
 
 const LearntSide& LearntValve::side(bool extends) const { return extends ? extend : retract; }
 
-bool is_learnt(const DriveRow& drive) { return has_edges(drive); }
+bool is_learnt(const DriveRow& drive) { return has_edges(drive) && drive.control.learns; }
 
 LearntSide::LearntSide()
     : edge_variance(kLearntEdgeSpread * kLearntEdgeSpread),

@@ -57,6 +57,7 @@ struct LearntValve {
 
 /// Of a valve whose edges meter the flow. Of a motor only where its dead band ends, from whether it
 /// moves at all: its load takes seconds to get its speed.
+/// None where nothing is to be learnt (`learns`).
 [[nodiscard]] bool is_learnt(const DriveRow& drive);
 
 /// What a valve may be learnt from.

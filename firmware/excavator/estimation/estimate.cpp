@@ -102,11 +102,11 @@ void estimate_oil(const ExcavatorModel& machine, const OilGains& gains, const Ex
   const bool reached = state.pose.status == ReachStatus::kOk;
   if (reached) {
     weigh(profile, seen, mode, state);
-    next_softness(
-        seen.force_n[kBoom] / profile.geometry.cylinder[kBoom].cap_area_m2(),
-        state.modes.omega_radps[0],
-        seen.force_known && is_by_oil(profile, mode == EcuMode::kActive, cycle.elapsed_s, state),
-        cycle.elapsed_s, state.softness);
+    next_softness(seen.force_n[kBoom] / profile.geometry.cylinder[kBoom].cap_area_m2(),
+                  state.modes.omega_radps[0],
+                  profile.control.learns && seen.force_known &&
+                      is_by_oil(profile, mode == EcuMode::kActive, cycle.elapsed_s, state),
+                  cycle.elapsed_s, state.softness);
     state.modes = oil_modes(profile.oil, profile.geometry, state.pose, state.load, state.payload_kg,
                             state.softness.share);
   }

@@ -65,12 +65,14 @@ struct Driven {
   Course course = {};
   SteeringState state = {};
   double most_m = 0.0;  ///< Of the edge off the track, of late.
+  bool learns = true;
 
   void drive(double speed_mps, double way_m) {
     most_m = 0.0;
     const int count = static_cast<int>(way_m / std::abs(speed_mps) / kPeriod_s);
     for (int n = 0; n < count; ++n) {
-      state = steer(design, state, {x_m, kReach_m, speed_mps, speed_mps, course}, kPeriod_s);
+      state =
+          steer(design, state, {x_m, kReach_m, speed_mps, speed_mps, course, learns}, kPeriod_s);
       course.yaw_rate_radps = (1.0 - slips) * state.curvature_pm * speed_mps;
       const double along_mps = speed_mps * std::cos(course.heading_rad) /
                                (1.0 - design.curvature_at(x_m) * course.offset_m);
@@ -96,6 +98,16 @@ TEST(forward_the_edge_keeps_to_the_track) {
     assert_near(machine.course.offset_m, 20.0 - std::sqrt(400.0 - kReach_m * kReach_m), 0.01);
     assert_near(machine.state.trim_pm, slips > 0.0 ? 0.05 * slips / (1.0 - slips) : 0.0, 2e-3);
   }
+}
+
+TEST(told_not_to_it_learns_no_slip) {
+  const Curve curve(0.05);
+  const GradeProfile design = curve.design();
+  Driven machine{design, 0.3};
+  machine.learns = false;
+  machine.drive(1.6, 40.0);
+  assert_near(machine.state.trim_pm, 0.0, 0.0);
+  assert_true(machine.most_m > 0.005);
 }
 
 TEST(it_comes_back_from_beside) {

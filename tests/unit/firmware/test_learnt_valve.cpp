@@ -130,6 +130,16 @@ TEST(an_edge_is_told_in_travel, Bench bench) {
   assert_near(learnt_edge_ratio(bench.row, bench.valve, true), -0.05 * (1.0 - kEdge), 1e-12);
 }
 
+TEST(told_not_to_it_learns_nothing, Bench bench) {
+  bench.extend.edge = kEdge + 0.03;
+  assert_true(is_learnt(bench.row));
+  bench.row.control.learns = false;
+  assert_false(is_learnt(bench.row));
+  bench.work(20.0, 1.0, LearntFrom::kAnyMotion);
+  assert_near(bench.valve.extend.edge, 0.0, 0.0);
+  assert_near(bench.valve.extend.edge_variance, LearntSide().edge_variance, 0.0);
+}
+
 TEST(an_exponent_is_learnt) {
   for (const double exponent : {1.4, 1.8}) {
     Bench bench;
