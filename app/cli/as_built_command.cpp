@@ -83,7 +83,7 @@ std::optional<design::Surface> design_of(const design::DesignSource& told) {
   std::error_code ignored;
   if (!fs::exists(source.file, ignored) || fs::is_directory(source.file, ignored)) {
     throw std::runtime_error(
-        machines::unread_text(source.file, "a design: LandXML, or points (.xyz, .csv, .pts)"));
+        machines::unread_text(source.file, "a design: LandXML, DXF, or points (.xyz, .csv, .pts)"));
   }
   return design::surface_of(source);
 }
@@ -214,14 +214,18 @@ void add_as_built(CLI::App& app, int& status) {
   command->add_option("--ascii", options->ascii,
                       "The same as ESRI ASCII grid; date and machine stand in FILE.aux.xml");
   command->add_option("--html", options->html, "Map in colours and figures as one HTML page");
-  command->add_option("--design", options->design.file,
-                      "What the ground was to become: LandXML, or points x y z (.xyz, .csv, .pts, "
-                      "or as --columns say), in the machine's own frame");
-  command->add_option("--surface", options->design.surface,
-                      "Of a LandXML file with several: its name, '#2', or state=proposed");
+  command->add_option(
+      "--design", options->design.file,
+      "What the ground was to become: LandXML, DXF, or points x y z (.xyz, .csv, .pts, "
+      "or as --columns say), in the machine's own frame");
+  command->add_option(
+      "--surface", options->design.surface,
+      "Of a LandXML file with several: its name, '#2', or state=proposed; of a DXF its layer");
   command->add_option("--columns", options->design.columns,
                       "Of points, a letter each: P, N or Y, E or X, Z, D, as PNEZD");
-  command->add_option("--units", options->design.units, "Of points: m, ft, us-ft; m unless told")
+  command
+      ->add_option("--units", options->design.units,
+                   "Of points: m, ft, us-ft; m unless told. Of a DXF instead of its own")
       ->check(one_of({"m", "ft", "us-ft"}));
   command
       ->add_option("--tolerance", options->tolerance_m,

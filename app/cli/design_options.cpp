@@ -15,21 +15,22 @@ void add_design_options(CLI::App& command, design::DesignSource& source) {
   command.add_option(
       "--design", source.file,
       "Instead of the profile's design, a file or a shipped one (trench.xml, banked.xml, "
-      "curved.xml): a LandXML surface, points x y z (.xyz, .csv, .pts, or as "
+      "curved.xml): a LandXML surface, 3DFACEs of a DXF, points x y z (.xyz, .csv, .pts, or as "
       "--columns say), or a text (.txt) with x along the track and height over the plane, a line a "
       "corner, and where the blade tilts the slope across and the track's curvature");
   command.add_option(
       "--surface", source.surface,
       "Of a LandXML file with several: its name, its number as '#2', or its state as "
-      "state=proposed");
+      "state=proposed; of a DXF its layer");
   command.add_option(
       "--columns", source.columns,
       "Of points, a letter each: P name, N or Y northing, E or X easting, Z height, D "
       "description, as PNEZD; as the file's first line names them, else XYZ, unless "
       "told");
   command
-      .add_option("--units", source.units,
-                  "Of points: m, ft, us-ft (US survey feet); m unless told")
+      .add_option(
+          "--units", source.units,
+          "Of points: m, ft, us-ft (US survey feet); m unless told. Of a DXF instead of its own")
       ->check(one_of({"m", "ft", "us-ft"}));
   command
       .add_option(
@@ -74,7 +75,8 @@ Designed designed(const machines::SimulatedDozer& machine, const design::DesignS
   if (!std::filesystem::exists(source.file, ignored) ||
       std::filesystem::is_directory(source.file, ignored)) {
     throw std::runtime_error(machines::unread_text(
-        source.file, "a design: LandXML, points (.xyz, .csv, .pts), or a line a corner (.txt)"));
+        source.file,
+        "a design: LandXML, DXF, points (.xyz, .csv, .pts), or a line a corner (.txt)"));
   }
   const design::BladeAcross blade{machine.plant.blade_shape.width_m,
                                   machine.profile.grade.tolerance_m, machine.profile.tilt.present};

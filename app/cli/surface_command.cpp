@@ -37,7 +37,7 @@ void make_grid(const SurfaceCommand& told) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(source.file, ignored)) {
     throw std::runtime_error(
-        machines::unread_text(source.file, "a design: LandXML, or points (.xyz, .csv, .pts)"));
+        machines::unread_text(source.file, "a design: LandXML, DXF, or points (.xyz, .csv, .pts)"));
   }
   assert_apart({source.file.string()}, {told.out});
   const design::Surface surface = design::surface_of(source);
@@ -70,14 +70,18 @@ void add_surface(CLI::App& app, int& status) {
   CLI::App* command = add_command(app, "surface");
   command
       ->add_option("--design", options->design.file,
-                   "LandXML surface, or points x y z (.xyz, .csv, .pts, or as --columns say), or a "
+                   "LandXML surface, 3DFACEs of a DXF, or points x y z (.xyz, .csv, .pts, or as "
+                   "--columns say), or a "
                    "shipped one")
       ->required();
-  command->add_option("--surface", options->design.surface,
-                      "Of a LandXML file with several: its name, '#2', or state=proposed");
+  command->add_option(
+      "--surface", options->design.surface,
+      "Of a LandXML file with several: its name, '#2', or state=proposed; of a DXF its layer");
   command->add_option("--columns", options->design.columns,
                       "Of points, a letter each: P, N or Y, E or X, Z, D, as PNEZD");
-  command->add_option("--units", options->design.units, "Of points: m, ft, us-ft; m unless told")
+  command
+      ->add_option("--units", options->design.units,
+                   "Of points: m, ft, us-ft; m unless told. Of a DXF instead of its own")
       ->check(one_of({"m", "ft", "us-ft"}));
   command->add_option("--step", options->cut.step_m, "Between two heights, m, 0.01 .. 0.5")
       ->check(number_between(machines::kLeastStep_m, machines::kMostStep_m))

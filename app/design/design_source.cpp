@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "app/design/curved_section.hpp"
+#include "app/design/dxf_groups.hpp"
 #include "app/machines/design_file.hpp"
 #include "app/machines/plain_text.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr const char* kOfSurface =
     "--surface, --columns, --units, --track, --radius, --alignment, --alignment-file, --stations "
     "and "
-    "--datum are for a surface, LandXML or points";
+    "--datum are for a surface, LandXML, DXF or points";
 
 std::string ending_of(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
@@ -28,11 +29,22 @@ std::string ending_of(const std::filesystem::path& file) {
 }
 
 /// By its first character, in any encoding that XML may have.
-bool is_xml(const std::filesystem::path& file) {
-  const std::string text = machines::file_text(file, "a design");
+bool is_xml(const std::string& text) {
   const std::size_t at =
       text.find_first_not_of(std::string_view("\xEF\xBB\xBF\xFF\xFE\0 \t\r\n", 10));
   return at != std::string::npos && text[at] == '<';
+}
+
+/// What a program keeps for itself: by its first letters, whatever its ending says.
+void refuse_closed(const std::filesystem::path& file, const std::string& text) {
+  const char* wrong = text.compare(0, 4, "AC10") == 0
+                          ? "is a DWG; allowed: DXF of text, as CAD saves it too"
+                      : text.compare(0, 4, "PK\3\4") == 0 || text.compare(0, 2, "\x1F\x8B") == 0
+                          ? "is an archive; allowed: the file that is in it"
+                          : nullptr;
+  if (wrong != nullptr) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), wrong));
+  }
 }
 
 Surface surface_of(const DesignSource& source, DesignKind kind) {
@@ -42,8 +54,14 @@ Surface surface_of(const DesignSource& source, DesignKind kind) {
     }
     return read_landxml(source.file, source.surface);
   }
+  if (kind == DesignKind::kDxf) {
+    if (!source.columns.empty()) {
+      throw std::runtime_error("--columns are of points; a DXF has faces");
+    }
+    return read_dxf(source.file, source.surface, source.units);
+  }
   if (!source.surface.empty()) {
-    throw std::runtime_error("--surface chooses one of a LandXML file's");
+    throw std::runtime_error("--surface chooses one of a LandXML file's, or a layer of a DXF");
   }
   return read_points(source.file, {source.columns, metres_of_unit(source.units)});
 }
@@ -94,18 +112,24 @@ machines::DesignLine along(const Surface& surface, const DesignSource& source,
 Surface surface_of(const DesignSource& source) {
   const DesignKind kind = kind_of(source);
   if (kind == DesignKind::kLine) {
-    throw std::runtime_error(fmt::format(
-        "{}: is a line a corner, which is no surface; allowed: LandXML, or points (.xyz, .csv, "
-        ".pts, or as --columns say)",
-        source.file.string()));
+    throw std::runtime_error(
+        fmt::format("{}: is a line a corner, which is no surface; allowed: LandXML, DXF, or points "
+                    "(.xyz, .csv, "
+                    ".pts, or as --columns say)",
+                    source.file.string()));
   }
   return surface_of(source, kind);
 }
 
 DesignKind kind_of(const DesignSource& source) {
   const std::string ending = ending_of(source.file);
-  if (is_xml(source.file)) {
+  const std::string text = machines::file_text(source.file, "a design");
+  refuse_closed(source.file, text);
+  if (is_xml(text)) {
     return DesignKind::kLandXml;
+  }
+  if (ending == ".dxf" || is_dxf(text)) {
+    return DesignKind::kDxf;
   }
   const bool is_points = ending == ".xyz" || ending == ".csv" || ending == ".pts";
   if (is_points || !source.columns.empty()) {
@@ -113,7 +137,8 @@ DesignKind kind_of(const DesignSource& source) {
   }
   if (ending != ".txt") {
     throw std::runtime_error(fmt::format(
-        "{}: is no LandXML, and its ending '{}' does not say what its numbers are; allowed: .xyz, "
+        "{}: is no LandXML and no DXF, and its ending '{}' does not say what its numbers are; "
+        "allowed: .xyz, "
         ".csv and .pts for points or --columns that say so, as XYZ or PNEZD; .txt for a line a "
         "corner, x along the track and height over the plane",
         source.file.string(), ending));

@@ -45,4 +45,13 @@ struct PointFormat {
 [[nodiscard]] Surface read_points(const std::filesystem::path& file,
                                   const PointFormat& format = {});
 
+/// The 3DFACEs of a DXF of text that lie on `layer`, or on the only one that has any; in `unit`
+/// (see metres_of_unit), which counts more than the file's $INSUNITS, or by that. Of four corners
+/// the triangles meet between the first and the third. Faces that stand upright are left out: seen
+/// from above they are a line. Throws as read_landxml: also for a drawing with ground in another
+/// form on that layer (polyface mesh, MESH, 3DSOLID, faces in an inserted block), for four corners
+/// that lie in no plane, and for a file that ends without EOF.
+[[nodiscard]] Surface read_dxf(const std::filesystem::path& file, const std::string& layer,
+                               const std::string& unit);
+
 }  // namespace graben::design

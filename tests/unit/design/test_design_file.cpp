@@ -99,7 +99,7 @@ TEST(a_file_is_what_it_contains) {
   assert_true(kind("a.txt", "1 0 0 0\n", "PNEZ") == design::DesignKind::kPoints);
   assert_true(kind("a.TXT", "0 0\n") == design::DesignKind::kLine);
   const std::string refused = test::refusal_of([&] { static_cast<void>(kind("a.dat", "0 0\n")); });
-  assert_true(has(refused, "a.dat: is no LandXML, and its ending '.dat' does not say"));
+  assert_true(has(refused, "a.dat: is no LandXML and no DXF, and its ending '.dat' does not say"));
 }
 
 TEST(an_alignment_may_be_in_another_file) {
