@@ -201,7 +201,9 @@ std::string table_text(const BuiltGround& ground, const BuiltHead& head,
   };
   row("machine", head.machine);
   row("from, until", fmt::format("{}, {}", utc_text(head.from_s), utc_text(head.until_s)));
-  row("way of the edge, at work", fmt::format("{:.1f} m, {:.1f} m", head.way_m, head.worked_m));
+  if (!head.of_record) {
+    row("way of the edge, at work", fmt::format("{:.1f} m, {:.1f} m", head.way_m, head.worked_m));
+  }
   row("ground made", fmt::format("{:.2f} m2, {} cells of {} m", ground.area_m2(),
                                  ground.point.size(), ground.grid_m));
   row("height, lowest to highest", fmt::format("{:.3f} to {:.3f} m", extent.low_m, extent.high_m));

@@ -17,8 +17,9 @@ struct BuiltHead {
   std::string version;  ///< Of this tool.
   double from_s = 0.0;  ///< Of the logs' first and last frame, as they have them.
   double until_s = 0.0;
-  double way_m = 0.0;     ///< That the edge went,
-  double worked_m = 0.0;  ///< and at work.
+  bool of_record = false;  ///< A controller's: it does not tell the next two.
+  double way_m = 0.0;      ///< That the edge went,
+  double worked_m = 0.0;   ///< and at work.
   double tolerance_m = 0.0;
   BuiltHeight height = BuiltHeight::kLowest;
 };

@@ -92,23 +92,24 @@ void lay_over(const design::Surface& design, BuiltGround& ground) {
   const Index index(ground.point);
   bool any = false;
   for (const auto& face : design.face) {
-    over_cells(design.point_m[face[0]], design.point_m[face[1]], design.point_m[face[2]],
-               ground.grid_m, [&](const CellPlace& cell, double height_m) {
-                 const std::uint32_t n = index.of(cell);
-                 if (n == kNone) {
-                   return;
-                 }
-                 BuiltPoint& point = ground.point[n];
-                 const double off_m = point.at_m.z() - height_m;
-                 if (std::abs(point.off_m - off_m) > kSameHeight_m) {
-                   throw std::runtime_error(fmt::format(
-                       "the design has two heights at x = {:.2f}, y = {:.2f} m: {:.3f} and {:.3f} "
-                       "m; allowed: one",
-                       point.at_m.x(), point.at_m.y(), point.at_m.z() - point.off_m, height_m));
-                 }
-                 point.off_m = off_m;
-                 any = true;
-               });
+    ground::over_cells(
+        design.point_m[face[0]], design.point_m[face[1]], design.point_m[face[2]], ground.grid_m,
+        [&](const CellPlace& cell, double height_m) {
+          const std::uint32_t n = index.of(cell);
+          if (n == kNone) {
+            return;
+          }
+          BuiltPoint& point = ground.point[n];
+          const double off_m = point.at_m.z() - height_m;
+          if (std::abs(point.off_m - off_m) > kSameHeight_m) {
+            throw std::runtime_error(fmt::format(
+                "the design has two heights at x = {:.2f}, y = {:.2f} m: {:.3f} and {:.3f} "
+                "m; allowed: one",
+                point.at_m.x(), point.at_m.y(), point.at_m.z() - point.off_m, height_m));
+          }
+          point.off_m = off_m;
+          any = true;
+        });
   }
   if (!any) {
     Eigen::Vector3d least = design.point_m.front();

@@ -6,28 +6,16 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "app/built/edge_log.hpp"
+#include "app/ecu/ground/cells.hpp"
 
 namespace graben::built {
 
-struct Cell {
-  double lowest_m = 0.0;
-  double lowest_s = 0.0;  ///< When, as the log has it.
-  double newest_m = 0.0;  ///< Lowest of the last pass.
-  double newest_s = 0.0;
-  std::uint32_t passes = 0;
-};
-
-/// A cell by its number along x and y; its centre is half a cell on.
-struct CellPlace {
-  std::int32_t i = 0;
-  std::int32_t j = 0;
-};
+using ground::Cell;
+using ground::CellPlace;
 
 /// The same as one number, for look-ups.
 [[nodiscard]] inline std::uint64_t cell_key(const CellPlace& place) {
@@ -38,15 +26,8 @@ struct CellPlace {
 inline constexpr double kLeastGrid_m = 0.02;
 inline constexpr double kMostGrid_m = 2.0;
 inline constexpr std::size_t kMostCells = 1'000'000;
-/// Passes over a cell are two where no less lies between them, s.
-inline constexpr double kPass_s = 1.0;
 /// A newest pass this much over the lowest one went through soil that has come there, m.
 inline constexpr double kFallen_m = 0.01;
-
-/// Calls `take` with each cell whose centre is in the triangle, seen from above, and the height of
-/// the triangle there. A triangle that stands upright has none.
-void over_cells(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-                double grid_m, const std::function<void(const CellPlace&, double height_m)>& take);
 
 class CellGrid {
  public:
@@ -55,7 +36,9 @@ class CellGrid {
   /// The edge went over the ground between its two places. That is ground where the edge was at
   /// work; and, at work or not, where it went below ground that is known there: it can only have
   /// cut that. Throws std::runtime_error beyond kMostCells.
-  void add(const EdgeStep& step);
+  void add(const ground::EdgeStep& step);
+  /// A cell as a record has it; of one that is known already the lowest and the newest.
+  void put(const CellPlace& place, const Cell& cell);
 
   [[nodiscard]] double grid_m() const { return grid_m_; }
   [[nodiscard]] std::size_t size() const { return cell_.size(); }
@@ -67,7 +50,7 @@ class CellGrid {
   }
 
  private:
-  void pass(const CellPlace& place, double height_m, double time_s, bool at_work);
+  void demand_room() const;
 
   double grid_m_;
   std::unordered_map<std::uint64_t, Cell> cell_;

@@ -16,19 +16,10 @@
 namespace graben::built {
 namespace {
 
-/// Places farther apart in time are not joined.
-constexpr TimeUs kGap_us = 200 * kMillisecondUs;
-/// Nor in space: no edge goes so far in a cycle.
-constexpr double kLeap_m = 0.3;
 /// So many of a machine's frames may be damaged or out of sequence.
 constexpr double kMostDoubtful = 0.05;
 /// An edge that went no farther has not worked: sensors' noise, a machine that was warmed up.
 constexpr double kLeastWay_m = 0.2;
-
-/// Of the edge's middle.
-double way_of(const EdgeStep& step) {
-  return 0.5 * (step.to.left_m + step.to.right_m - step.from.left_m - step.from.right_m).norm();
-}
 
 class Reader {
  public:
@@ -40,7 +31,7 @@ class Reader {
         is_dozer_(std::holds_alternative<machines::DozerMachine>(machine)),
         edge_(machine_edge(machine, ask.width_m)),
         give_([this, &take](const EdgeStep& step) {
-          log_.worked_m += step.to.at_work ? way_of(step) : 0.0;
+          log_.worked_m += step.to.at_work ? step.way_m() : 0.0;
           take(step);
         }),
         sweeps_(give_) {}
@@ -49,7 +40,7 @@ class Reader {
     if (!any_) {
       any_ = true;
       log_.from_s = logged.time_s;
-      next_us_ = since_us(logged.time_s) + kPeriod_us;
+      next_us_ = since_us(logged.time_s) + ground::kPeriod_us;
     }
     log_.until_s = logged.time_s;
     look_until(since_us(logged.time_s));
@@ -65,7 +56,7 @@ class Reader {
   }
 
   EdgeLog finish(identify::LogRead read) {
-    look_until(since_us(log_.until_s) + kPeriod_us);
+    look_until(since_us(log_.until_s) + ground::kPeriod_us);
     sweeps_.end();
     log_.read = std::move(read);
     judge();
@@ -89,7 +80,7 @@ class Reader {
       next_us_ = now_us;
       before_.reset();
     }
-    for (; next_us_ < now_us; next_us_ += kPeriod_us) {
+    for (; next_us_ < now_us; next_us_ += ground::kPeriod_us) {
       look(next_us_);
     }
   }
@@ -100,11 +91,12 @@ class Reader {
       return;
     }
     place->at_work = place->at_work || ask_.every;
-    if (before_ && now_us - before_us_ <= kGap_us && way_of({*before_, *place, 0.0}) < kLeap_m) {
+    if (before_ && now_us - before_us_ <= ground::kGap_us &&
+        EdgeStep{*before_, *place, 0.0}.way_m() < ground::kLeap_m) {
       const EdgeStep step{*before_, *place,
                           log_.from_s + 1e-6 * static_cast<double>(now_us - kSecondUs)};
       log_.known_s += 1e-6 * static_cast<double>(now_us - before_us_);
-      log_.way_m += way_of(step);
+      log_.way_m += step.way_m();
       // A dozer's, and where each place counts, it is known at once.
       is_dozer_ || ask_.every ? give_(step) : sweeps_.add(step);
     } else {
@@ -190,7 +182,7 @@ class Reader {
   bool is_dozer_;
   std::unique_ptr<MachineEdge> edge_;
   const std::function<void(const EdgeStep&)> give_;
-  WorkSweeps sweeps_;
+  ground::WorkSweeps sweeps_;
   EdgeLog log_;
   bool any_ = false;
   std::uint32_t hash_ = 0;

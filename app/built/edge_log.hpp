@@ -6,10 +6,13 @@
 #include <functional>
 #include <string>
 
-#include "app/built/work_sweeps.hpp"
+#include "app/built/machine_edge.hpp"
+#include "app/ecu/ground/work_sweeps.hpp"
 #include "app/identify/machine/candump_reader.hpp"
 
 namespace graben::built {
+
+using ground::EdgeStep;
 
 struct EdgeAsk {
   std::string profile;  ///< As it was told, for messages; `bus` too.

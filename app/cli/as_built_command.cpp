@@ -8,9 +8,13 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "app/built/built_files.hpp"
+#include "app/built/edge_log.hpp"
+#include "app/built/ground_folder.hpp"
 #include "app/cli/command_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/console.hpp"
@@ -32,6 +36,7 @@ constexpr double kClock_s = 1e9;
 
 struct AsBuiltCommand {
   std::vector<std::string> logs;
+  std::string record;
   built::EdgeAsk ask;
   design::DesignSource design;
   std::string out;
@@ -121,6 +126,29 @@ built::CellGrid read_logs(const AsBuiltCommand& options, const machines::AnyMach
   return grid;
 }
 
+/// Of what the controller itself has kept.
+built::CellGrid read_record(const AsBuiltCommand& options, const machines::AnyMachine& machine,
+                            built::BuiltHead& head, std::vector<std::string>& notes) {
+  built::GroundFolder found = built::read_ground_folder(
+      options.record, std::visit([](const auto& any) { return any.hash; }, machine),
+      options.ask.any_machine);
+  notes.insert(notes.end(), found.notes.begin(), found.notes.end());
+  head.of_record = true;
+  head.from_s = found.from_s;
+  head.until_s = found.until_s;
+  return std::move(found.grid);
+}
+
+void refuse_beside_record(const AsBuiltCommand& options, const CLI::App& command) {
+  for (const char* name : {"--grid", "--ground", "--width"}) {
+    if (!options.record.empty() && command.count(name) > 0) {
+      throw std::runtime_error(
+          fmt::format("{}: of logs; a record has cells of {} m, made as the controller knew them",
+                      name, ground::kCell_m));
+    }
+  }
+}
+
 void as_built(AsBuiltCommand options) {
   std::vector<std::string> inputs = options.logs;
   if (!options.design.file.empty()) {
@@ -142,19 +170,22 @@ void as_built(AsBuiltCommand options) {
   head.tolerance_m = options.tolerance_m;
   head.height =
       options.height == "newest" ? built::BuiltHeight::kNewest : built::BuiltHeight::kLowest;
-  head.project = options.project.empty() ? fs::path(options.logs.front()).filename().string()
-                                         : options.project;
+  const fs::path source = options.record.empty() ? options.logs.front() : options.record;
+  head.project = options.project.empty() ? source.filename().string() : options.project;
   std::vector<std::string> notes;
   built::BuiltGround ground =
-      built::built_ground(read_logs(options, machine, head, notes), head.height);
+      built::built_ground(options.record.empty() ? read_logs(options, machine, head, notes)
+                                                 : read_record(options, machine, head, notes),
+                          head.height);
   if (ground.face.empty()) {
     throw std::runtime_error(
-        fmt::format("{} cells were made, and no three side by side make a surface; a smaller "
-                    "--grid than {} m has more",
-                    ground.point.size(), options.grid_m));
+        fmt::format("{} cells of {} m were made, and no three side by side make a surface{}",
+                    ground.point.size(), ground.grid_m,
+                    options.record.empty() ? "; a smaller --grid has more" : ""));
   }
   if (head.until_s < kClock_s) {
-    notes.emplace_back("the log's stamps are no clock's: its dates count from 1970");
+    notes.emplace_back(fmt::format("the {} stamps are no clock's: its dates count from 1970",
+                                   head.of_record ? "record's" : "log's"));
   }
   std::optional<built::DesignFigures> figures;
   if (design) {
@@ -196,14 +227,18 @@ void as_built(AsBuiltCommand options) {
 void add_as_built(CLI::App& app, int& status) {
   auto options = std::make_shared<AsBuiltCommand>();
   CLI::App* command = add_command(app, "as-built");
-  command
+  auto* source = command->add_option_group("source", "What the ground is read from");
+  source
       ->add_option("--log", options->logs,
                    "candump log, plain or gzip; several in the order of their times")
-      ->required()
       ->expected(1, 100);
+  source->add_option("--record", options->record,
+                     "The controller's own record instead: the folder that graben-ecu had as "
+                     "--store; it may run meanwhile");
+  source->require_option(1);
   command
       ->add_option("--profile", options->ask.profile,
-                   "Profile of the logs' machine: a file or a shipped name")
+                   "Profile of their machine: a file or a shipped name")
       ->required();
   command->add_option("--bus", options->ask.bus,
                       "Bus profile that its machine was put on: a file or a shipped name");
@@ -254,9 +289,14 @@ void add_as_built(CLI::App& app, int& status) {
                     "Take a log whose machine says another profile, or none");
   add_examples(*command,
                {"as-built --log day.log --profile excavator_12t --out asbuilt.xml",
-                "as-built --log day.log --profile my.toml --design site.xml --out a.xml"});
-  command->callback(
-      [options, &status] { status = guarded("as-built", [&] { as_built(*options); }); });
+                "as-built --record /var/lib/graben-ecu --profile my.toml --design site.xml --out "
+                "a.xml"});
+  command->callback([options, command, &status] {
+    status = guarded("as-built", [&] {
+      refuse_beside_record(*options, *command);
+      as_built(*options);
+    });
+  });
 }
 
 }  // namespace graben::cli

@@ -81,6 +81,7 @@ void run_task(const TaskCommand& options) {
   const std::string slow =
       demand_known(machine, machines::needed_drives(machine.profile, task.result.program),
                    options.unknown_drives);
+  run.store = options.store;
   run.faults = options.faults;
   run.most_s = options.most_s;
   const fs::path out(options.out);
@@ -137,6 +138,9 @@ void add_autodig(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Folder for autodig.log and autodig.html")
       ->capture_default_str();
   add_summary_option(*command, options->summary);
+  command->add_option("--store", options->store,
+                      "Folder for the controller's as-built record, as graben-ecu keeps it: what "
+                      "is there is gone on with");
   add_simulated_options(*command, options->simulated);
   add_task_options(*command, options->scenario);
   add_unknown_drives_option(*command, options->unknown_drives);

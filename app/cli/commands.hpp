@@ -53,6 +53,7 @@ struct TaskCommand {
   std::string out = "out";
   std::string name = "autodig";  ///< Of the files in `out`.
   std::string summary;
+  std::string store;  ///< See AutodigOptions.
   std::vector<std::string> faults;
   std::optional<double> most_s;
   std::string unknown_drives;  ///< See demand_known().

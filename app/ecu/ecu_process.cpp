@@ -19,6 +19,7 @@
 #include "app/ecu/diagnostic_port.hpp"
 #include "app/ecu/emergency_note.hpp"
 #include "app/ecu/end_signals.hpp"
+#include "app/ecu/ground/ground_keeper.hpp"
 #include "app/ecu/kinds.hpp"
 #include "app/ecu/store/frozen_fault.hpp"
 #include "app/ecu/store/process_store.hpp"
@@ -206,9 +207,9 @@ class Workshop {
   TimeUs learnt_us_ = 0;
 };
 
-template <class Ecu>
+template <class Ecu, class Feed>
 void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
-                         EmergencyNote& note, AddressNote& address, Workshop& workshop,
+                         EmergencyNote& note, AddressNote& address, Workshop& workshop, Feed& edge,
                          bool real_time) {
   for (int neutral_cycles = 0; neutral_cycles < kNeutralCycles;) {
     const CyclicClock::Cycle cycle = clock.wait();
@@ -221,6 +222,7 @@ void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, Usage
     workshop.begin(cycle.now_us);
     ecu.step(cycle.now_us, cycle.last_us);
     workshop.cycle_done(ecu, cycle.now_us);
+    edge.look(ecu.inputs(), ecu.outputs(), cycle.now_us);
     watchdog.cycle_done(cycle.now_us);
     note.look(ecu.emergency());
     address.look();
@@ -318,7 +320,11 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   AddressNote address_note(manager, claim);
 
   Workshop workshop(address, port, store.get());
-  cycle_until_stopped(ecu, clock, watchdog, mark, note, address_note, workshop, options.real_time);
+  // Of an edge whose width nobody says, no ground is known.
+  const bool has_edge = store != nullptr && ground::edge_width_m(setup) > 0.0;
+  ground::EdgeFeed edge(ground::finder_of(setup), has_edge ? &store->edges() : nullptr);
+  cycle_until_stopped(ecu, clock, watchdog, mark, note, address_note, workshop, edge,
+                      options.real_time);
 
   manager.stopping();
   if (note.count() > 0) {

@@ -47,6 +47,10 @@ void print(std::FILE* to, const CyclicClock& clock, const LinkCounters& link,
   count(to, "store_writes", usage.store.writes);
   count(to, "store_failures", usage.store.failures);
   count(to, "store_dropped", usage.store.dropped);
+  count(to, "ground_tiles", usage.store.ground.tiles);
+  count(to, "ground_writes", usage.store.ground.writes);
+  count(to, "ground_failures", usage.store.ground.failures);
+  count(to, "ground_lost", usage.store.ground.lost);
   durations(to, "wake_up_latency", clock.wake_up_latency());
   durations(to, "cycle_time", clock.cycle_time());
   std::fprintf(to, "# Columns: us, wake_up_latency, cycle_time\n");

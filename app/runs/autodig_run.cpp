@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "app/machines/task_text.hpp"
 #include "app/runs/excavator_rig.hpp"
 #include "app/runs/fence_truth.hpp"
+#include "app/runs/kept_ground.hpp"
 #include "app/runs/plant_faults.hpp"
 #include "firmware/excavator/motion/dig/layer_pose.hpp"
 #include "firmware/excavator/motion/dig/step_round.hpp"
@@ -45,6 +47,9 @@ class AutodigRun {
         kinematics_(machine.profile.geometry),
         rig_(machine, book_of(program), options.start, options.speed_override_ratio),
         faults_(excavator_plant_faults(), options.faults) {
+    if (!options.store.empty()) {
+      ground_ = std::make_unique<KeptGround>(options.store, rig_.setup, machine.hash);
+    }
     rig_.plant.plant().keep_account(&account_);
     result_.spool_edges = spool_edges(machine.plant);
     if (const auto& digging = machine.plant.digging; digging) {
@@ -65,6 +70,9 @@ class AutodigRun {
           const TaskProgress& at = rig_.ecu->outputs().status.progress;
           show(share_done(at), machines::step_name(at.kind));
         });
+    if (ground_ != nullptr) {
+      ground_->finish();
+    }
     if (const plant::BucketSoil* soil = rig_.plant.plant().digging(); soil != nullptr) {
       result_.built = as_built(program_, soil->ground());
     }
@@ -128,6 +136,9 @@ class AutodigRun {
 
   void look(TimeUs now_us, double cycle_us) {
     give_word(now_us);
+    if (ground_ != nullptr) {
+      ground_->look(*rig_.ecu, now_us);
+    }
     AutodigSample sample;
     sample.time_s = seconds(now_us);
     sample.cycle_us = cycle_us;
@@ -263,6 +274,7 @@ class AutodigRun {
   plant::EnergyAccount account_;
   AutodigRig rig_;
   PlantFaultSchedule<plant::ExcavatorFaults> faults_;
+  std::unique_ptr<KeptGround> ground_;
   int round_ = 0;
   TimeUs waits_since_us_ = 0;
   AutodigResult result_;

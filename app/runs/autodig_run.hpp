@@ -27,6 +27,7 @@ struct AutodigOptions {
   int rounds = 1;                  ///< Of a task that repeats.
   double word_after_s = 3.0;       ///< At a wait the operator asks for the task anew after so long.
   std::filesystem::path log_file;  ///< candump log; none if empty.
+  std::string store;               ///< Folder for the controller's as-built record; none if empty.
   std::vector<std::string> faults;  ///< Of the machine, as told_fault() reads them.
   std::optional<double> most_s;     ///< Simulated time after which it is given up.
 };

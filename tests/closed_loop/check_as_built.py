@@ -82,7 +82,8 @@ def height_at(cells, x, y):
 def is_the_true_ground(site, name, most_mm, turn, *errors):
     """Ground that fell in afterwards, loose on what is firm, is left aside and counted."""
     site.write("task.toml", TASK.format(turn=turn))
-    site.good("autodig", "--task", "task.toml", "--soil", "loam", *errors, "--out", name, "--summary", f"{name}.json")
+    site.good("autodig", "--task", "task.toml", "--soil", "loam", *errors, "--out", name, "--summary", f"{name}.json",
+              "--store", f"{name}/store")
     said = site.as_built(f"{name}/autodig.log", "--points", f"{name}.csv", "--ascii", f"{name}.asc", "--grid", GRID,
                          out=f"{name}.xml")
     cells = read_points(site.text(f"{name}.csv"))[1]
@@ -103,6 +104,60 @@ def is_the_true_ground(site, name, most_mm, turn, *errors):
     assert all(float(row["z"]) < 0.02 for row in cells.values())
     assert 0.9 < len(cells) * GRID ** 2 / (FAR - NEAR) < 1.5, len(cells)
     assert "ground made" in said and "the log's stamps are no clock's" in said, said
+
+
+def record_of(site, folder, *more, out="r.xml", profile="excavator_12t"):
+    return site.good("as-built", "--record", folder, "--profile", profile, "--out", out, *more)
+
+
+def the_controller_has_the_same(site, name):
+    """Its own record against the log of the same run, cell by cell."""
+    site.as_built(f"{name}/autodig.log", "--points", "l.csv", out="l.xml")
+    said = record_of(site, f"{name}/store", "--points", "r.csv", "--ascii", "r.asc")
+    assert "way of the edge" not in said and "the record's stamps are no clock's" in said, said
+    log, record = ({(row["x"], row["y"]): row for row in csv.DictReader(site.text(file).splitlines()[1:])}
+                   for file in ("l.csv", "r.csv"))
+    both = log.keys() & record.keys()
+    off = {what: sorted(abs(float(log[at][what]) - float(record[at][what])) for at in both)
+           for what in ("lowest", "newest")}
+    print(f"{name}: {len(log)} cells by the log, {len(record)} by the controller's record, {len(both)} in both; "
+          f"largest difference {1e3 * off['lowest'][-1]:.1f} mm lowest, {1e3 * off['newest'][-1]:.1f} mm newest")
+    assert len(both) >= 0.97 * max(len(log), len(record))
+    assert off["lowest"][-1] <= 0.01 and off["newest"][int(0.97 * len(both))] <= 0.01
+    times = [abs(seconds_of(log[at]["time"]) - seconds_of(record[at]["time"])) for at in both]
+    assert sorted(times)[int(0.97 * len(times))] <= 1.1, max(times)
+    assert 'surfType="TIN"' in site.text("r.xml") and "MACHINE" in site.text("r.asc.aux.xml")
+
+
+def seconds_of(time):
+    hours, minutes, rest = time.split("T")[1].rstrip("Z").split(":")
+    return 3600 * int(hours) + 60 * int(minutes) + float(rest)
+
+
+def bad_records(site, name):
+    store = site.folder / name / "store"
+    tiles = sorted(store.glob("ground-*.[ab]"))
+    assert tiles and all(file.stat().st_size <= 4096 for file in tiles), tiles
+    newest = store / "ground-000.a" if (store / "ground-000.a").exists() else tiles[0]
+    for file in store.glob(newest.stem + ".*"):
+        data = bytearray(file.read_bytes())
+        data[100] ^= 1
+        file.write_bytes(data)
+    said = record_of(site, f"{name}/store")
+    assert f"damaged: {newest.stem}.a" in said and "ground made" in said, said
+    (site.folder / "empty").mkdir()
+    for words, arguments in (
+            ("no ground in it", ["--record", "empty"]), ("No such file", ["--record", "nowhere"]),
+            ("is no folder", ["--record", "task.toml"]), ("--grid: of logs", ["--record", f"{name}/store", "--grid", "1"]),
+            ("--ground: of logs", ["--record", f"{name}/store", "--ground", "every"])):
+        done = site.call("as-built", *arguments, "--profile", "excavator_12t", "--out", "new.xml")
+        assert done.returncode == 1 and words in done.stderr and not (site.folder / "new.xml").exists(), done
+    done = site.call("as-built", "--record", f"{name}/store", "--profile", "excavator_22t", "--out", "new.xml")
+    assert done.returncode == 1 and "its ground is of profile" in done.stderr, done
+    record_of(site, f"{name}/store", "--any-machine", profile="excavator_22t")
+    for both in (["--record", f"{name}/store", "--log", "a.log"], []):
+        done = site.call("as-built", *both, "--profile", "excavator_12t", "--out", "new.xml")
+        assert done.returncode not in (0, 1) and done.stderr, done
 
 
 def reads_back(site, name):
@@ -307,6 +362,9 @@ def main():
         site = Site(graben, folder)
         is_the_true_ground(site, "a", 10, 0.0)
         is_the_true_ground(site, "found", 25, 0.6, "--errors", "all", "--seed", "2")
+        for name in ("a", "found"):
+            the_controller_has_the_same(site, name)
+        bad_records(site, "found")
         reads_back(site, "found")
         against_a_design(site, "a")
         # Of what follows a part is enough.

@@ -44,9 +44,14 @@ std::string store_folder(const std::string& told, const char* state_directory) {
 
 ProcessStore::ProcessStore(const std::string& folder, std::uint32_t profile_hash, SampleKind kind)
     : files_(folder),
-      store_(files_, profile_hash),
+      fault_files_(files_, changes_),
+      ground_files_(files_, changes_),
+      store_(fault_files_, profile_hash),
+      ground_store_(ground_files_, profile_hash),
       keeper_(store_, rings_, kind, &say_error),
-      thread_(keeper_) {
+      ground_(ground_store_, edges_, kind == SampleKind::kExcavator, &say_error),
+      works_(keeper_, ground_),
+      thread_(works_) {
   const bool is_open = files_.open();
   const std::string found = keeper_.begin(monotonic_now_us(), boot_mark());
   found_ = keeper_.history();
@@ -60,13 +65,19 @@ ProcessStore::ProcessStore(const std::string& folder, std::uint32_t profile_hash
   } else {
     say(line);
   }
+  ground_.begin(monotonic_now_us());
   if (const ErrorText error = thread_.start(); !error.empty()) {
     say_error((std::string("store: ") + error.c_str() + "; nothing is stored").c_str());
   }
 }
 
 StoreCounters ProcessStore::counters() const {
-  return {true, keeper_.is_failing(), keeper_.writes(), keeper_.failures(), keeper_.dropped()};
+  return {true,
+          keeper_.is_failing(),
+          keeper_.writes(),
+          keeper_.failures(),
+          keeper_.dropped(),
+          ground_.counters()};
 }
 
 bool ProcessStore::end() { return thread_.end(kMostWaitUs); }

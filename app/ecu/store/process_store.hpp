@@ -6,9 +6,11 @@
 #include <memory>
 #include <string>
 
+#include "app/ecu/ground/ground_keeper.hpp"
 #include "app/ecu/store/fault_keeper.hpp"
 #include "app/ecu/store/fault_recorder.hpp"
 #include "app/ecu/store/folder_files.hpp"
+#include "app/ecu/store/shared_files.hpp"
 #include "app/ecu/store/store.hpp"
 #include "app/ecu/store/store_thread.hpp"
 
@@ -21,6 +23,26 @@ struct StoreCounters {
   std::uint32_t writes = 0;    ///< Records.
   std::uint32_t failures = 0;  ///< Writes that failed.
   std::uint32_t dropped = 0;   ///< Events and freeze frames for which the queue had no room.
+  ground::GroundCounters ground;
+};
+
+/// Both of a store's rows of work: faults first.
+class StoreWorks : public StoreWork {
+ public:
+  /// Both outlive it.
+  StoreWorks(StoreWork& first, StoreWork& second) : first_(first), second_(second) {}
+  void work(TimeUs now_us, std::uint32_t unix_s) override {
+    first_.work(now_us, unix_s);
+    second_.work(now_us, unix_s);
+  }
+  void finish(TimeUs now_us, std::uint32_t unix_s) override {
+    first_.finish(now_us, unix_s);
+    second_.finish(now_us, unix_s);
+  }
+
+ private:
+  StoreWork& first_;
+  StoreWork& second_;
 };
 
 /// The folder of `--store`; else that of $STATE_DIRECTORY, the first if it has several; else "".
@@ -35,6 +57,8 @@ class ProcessStore {
 
   /// To the store's thread, for the recorder.
   [[nodiscard]] FaultRings& rings() { return rings_; }
+  /// To the store's thread, where the edge has been.
+  [[nodiscard]] ground::EdgeRing& edges() { return edges_; }
   /// As it was read.
   [[nodiscard]] const FaultHistory& found() const { return found_; }
 
@@ -45,9 +69,16 @@ class ProcessStore {
 
  private:
   FolderFiles files_;
+  SharedFiles::Changes changes_;
+  SharedFiles fault_files_;
+  SharedFiles ground_files_;
   Store store_;
+  Store ground_store_;
   FaultRings rings_;
+  ground::EdgeRing edges_;
   FaultKeeper keeper_;
+  ground::GroundKeeper ground_;
+  StoreWorks works_;
   FaultHistory found_;
   StoreThread thread_;
 };

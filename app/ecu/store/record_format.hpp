@@ -23,6 +23,7 @@ namespace graben::ecu {
 enum class RecordKind : std::uint16_t {
   kFaults = 1,       ///< The history of all faults (fault_history.hpp).
   kFreezeFrame = 2,  ///< One fault's freeze frame, by the fault's number (freeze_frame.hpp).
+  kGround = 3,  ///< A tile of ground as built, by its number (app/ecu/ground/ground_record.hpp).
 };
 
 struct RecordKey {

@@ -13,7 +13,8 @@ FileName file_name(RecordKey key, unsigned copy) {
   if (key.kind == RecordKind::kFaults) {
     static_cast<void>(std::snprintf(name.data(), name.size(), "faults.%c", end));
   } else {
-    static_cast<void>(std::snprintf(name.data(), name.size(), "frame-%03u.%c",
+    const char* const kind = key.kind == RecordKind::kGround ? "ground" : "frame";
+    static_cast<void>(std::snprintf(name.data(), name.size(), "%s-%03u.%c", kind,
                                     static_cast<unsigned>(key.index), end));
   }
   return name;

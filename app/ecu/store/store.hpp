@@ -19,7 +19,7 @@
 
 namespace graben::ecu {
 
-/// "faults.a", "frame-012.b"
+/// "faults.a", "frame-012.b", "ground-012.b"
 using FileName = std::array<char, 24>;
 [[nodiscard]] FileName file_name(RecordKey key, unsigned copy);
 
@@ -74,7 +74,8 @@ class Store {
   [[nodiscard]] std::uint32_t profile_hash() const { return profile_hash_; }
 
  private:
-  /// Most different records. [-; size: a freeze frame a fault number, and as many others]
+  /// Most different records. [-; size: a freeze frame a fault number, and as many others; or all
+  /// tiles of ground]
   static constexpr std::size_t kMostSlots = 256;
   struct Slot {
     RecordKey key;

@@ -6,8 +6,8 @@
 #include "tests/unit/refusal.hpp"
 
 /// Over x = 0 .. 1, y = 0 .. 0.5 at this height; cells of 0.25 m.
-built::EdgeStep over(double height_m, double time_s) {
-  built::EdgeStep step;
+ground::EdgeStep over(double height_m, double time_s) {
+  ground::EdgeStep step;
   step.from.left_m = {0.0, 0.5, height_m};
   step.from.right_m = {0.0, 0.0, height_m};
   step.to.left_m = {1.0, 0.5, height_m};
@@ -20,7 +20,7 @@ built::EdgeStep over(double height_m, double time_s) {
 built::BuiltGround ground(built::BuiltHeight height = built::BuiltHeight::kLowest) {
   built::CellGrid grid(0.25);
   grid.add(over(-0.5, 1.0e9));
-  built::EdgeStep shorter = over(-0.4, 1.0e9 + 60.25);
+  ground::EdgeStep shorter = over(-0.4, 1.0e9 + 60.25);
   shorter.to.left_m.x() = shorter.to.right_m.x() = 0.5;
   grid.add(shorter);
   return built::built_ground(grid, height);
@@ -54,7 +54,7 @@ TEST(three_of_a_square_make_one_triangle) {
     for (int n = 0; n < 4; ++n) {
       const double x_m = n % 2;
       const double y_m = n / 2;
-      built::EdgeStep cell;
+      ground::EdgeStep cell;
       cell.from.left_m = {x_m + 0.1, y_m + 0.9, 0.0};
       cell.from.right_m = {x_m + 0.1, y_m + 0.1, 0.0};
       cell.to.left_m = {x_m + 0.9, y_m + 0.9, 0.0};

@@ -4,16 +4,16 @@
 #include "tests/unit/refusal.hpp"
 
 /// Two metres wide across x, at this x and height.
-built::EdgePlace edge(double x_m, double height_m, bool at_work) {
-  built::EdgePlace place;
+ground::EdgePlace edge(double x_m, double height_m, bool at_work) {
+  ground::EdgePlace place;
   place.left_m = {x_m, 1.0, height_m};
   place.right_m = {x_m, -1.0, height_m};
   place.at_work = at_work;
   return place;
 }
 
-built::EdgeStep step(double from_x_m, double to_x_m, double height_m, double time_s,
-                     bool at_work = true) {
+ground::EdgeStep step(double from_x_m, double to_x_m, double height_m, double time_s,
+                      bool at_work = true) {
   return {edge(from_x_m, height_m, at_work), edge(to_x_m, height_m, at_work), time_s};
 }
 
@@ -34,7 +34,7 @@ TEST(a_way_makes_the_cells_whose_centres_it_passes) {
 /// No bias by the cell's size: of a slope each centre has its own height.
 TEST(heights_are_those_of_the_centres) {
   built::CellGrid grid(0.5);
-  built::EdgeStep down = step(0.0, 2.0, 0.0, 1.0);
+  ground::EdgeStep down = step(0.0, 2.0, 0.0, 1.0);
   down.to.left_m.z() = -2.0;
   down.to.right_m.z() = -2.0;
   grid.add(down);
@@ -47,7 +47,7 @@ TEST(heights_are_those_of_the_centres) {
 /// Both ends of an edge that is tilted count.
 TEST(an_edge_that_is_tilted_makes_a_slope_across) {
   built::CellGrid grid(0.1);
-  built::EdgeStep tilted = step(0.0, 1.0, 0.0, 1.0);
+  ground::EdgeStep tilted = step(0.0, 1.0, 0.0, 1.0);
   tilted.from.left_m.z() = tilted.to.left_m.z() = 0.2;
   tilted.from.right_m.z() = tilted.to.right_m.z() = -0.2;
   grid.add(tilted);
@@ -85,7 +85,7 @@ TEST(an_edge_that_is_not_at_work_counts_under_known_ground_alone) {
 
 TEST(an_edge_that_only_rises_makes_nothing) {
   built::CellGrid grid(0.1);
-  built::EdgeStep up = step(0.5, 0.5, 0.0, 1.0);
+  ground::EdgeStep up = step(0.5, 0.5, 0.0, 1.0);
   up.to.left_m.z() = up.to.right_m.z() = 1.0;
   grid.add(up);
   assert_int_equal(grid.size(), 0);
@@ -93,6 +93,6 @@ TEST(an_edge_that_only_rises_makes_nothing) {
 
 TEST(too_many_cells_are_refused) {
   built::CellGrid grid(0.02);
-  built::EdgeStep wide = step(0.0, 500.0, 0.0, 1.0);
+  ground::EdgeStep wide = step(0.0, 500.0, 0.0, 1.0);
   test::expect_refusal([&] { grid.add(wide); }, "more than 1000000 cells of 0.02 m");
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/built/work_sweeps.hpp"
+#include "app/ecu/ground/work_sweeps.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace graben::built {
+namespace graben::ground {
 namespace {
 
 /// Of the speed: a stroke's last digit is no motion.
@@ -62,7 +62,21 @@ void WorkSweeps::add(const EdgeStep& step) {
     way_ = way;
     went_s_ = step.time_s;
   }
+  make_room();
   step_.push_back(step);
+}
+
+void WorkSweeps::make_room() {
+  if (step_.size() < kMostSteps) {
+    return;
+  }
+  for (std::size_t n = 0; n < kMostSteps / 2; ++n) {
+    const EdgeStep& first = step_[2 * n];
+    EdgeStep both = step_[2 * n + 1];
+    both.from = first.from;
+    step_[n] = both;
+  }
+  step_.resize(kMostSteps / 2);
 }
 
 void WorkSweeps::end() {
@@ -81,4 +95,4 @@ void WorkSweeps::end() {
   any_ = false;
 }
 
-}  // namespace graben::built
+}  // namespace graben::ground

@@ -13,16 +13,9 @@
 #include <functional>
 #include <vector>
 
-#include "app/built/machine_edge.hpp"
+#include "app/ecu/ground/edge_place.hpp"
 
-namespace graben::built {
-
-/// Where the edge went from one moment to the next; `from` and `to` are parted by no gap.
-struct EdgeStep {
-  EdgePlace from;
-  EdgePlace to;
-  double time_s = 0.0;  ///< Of `to`, as the log has it.
-};
+namespace graben::ground {
 
 /// That much for each metre of the edge, N/m, inwards: more than was told in the air of machines as
 /// found. Outwards a bucket is opened: a load that pours out showed up to 6 kN/m level.
@@ -37,17 +30,24 @@ inline constexpr double kFelt_deviations = 1.5;
 inline constexpr double kSweep_mps = 0.03;
 inline constexpr double kPause_s = 0.5;
 
+/// Steps of a sweep that are kept; of one that takes longer two become one, the oldest first, so
+/// that it stays whole: 20 s as they came, minutes in steps of some hundredths of a second.
+inline constexpr std::size_t kMostSteps = 2048;
+
 class WorkSweeps {
  public:
   using Take = std::function<void(const EdgeStep&)>;
-  /// `take` gets each step, in their order, with `to.at_work` as it was found.
-  explicit WorkSweeps(const Take& take) : take_(take) {}
+  /// `take` gets the steps, in their order, with `to.at_work` as it was found.
+  /// Allocates here, and nowhere else.
+  explicit WorkSweeps(const Take& take) : take_(take) { step_.reserve(kMostSteps); }
 
   void add(const EdgeStep& step);
   /// Where the edge's way is interrupted, and after the last step.
   void end();
 
  private:
+  void make_room();
+
   const Take& take_;
   std::vector<EdgeStep> step_;  ///< Of the sweep that goes on.
   double way_ = 0.0;            ///< +1 outwards, -1 inwards; 0: not known yet.
@@ -57,4 +57,4 @@ class WorkSweeps {
   bool any_ = false;
 };
 
-}  // namespace graben::built
+}  // namespace graben::ground
