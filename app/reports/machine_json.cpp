@@ -180,6 +180,7 @@ json machine_json(const machines::ExcavatorMachine& machine,
     result["bus"] = bus_json(machine.bus);
   }
   result["dig"] = dig_json(profile);
+  result["assist_window_m"] = profile.assist.window_m;
   result["tasks"] = json::array();
   for (const machines::TaskFile& task : tasks) {
     result["tasks"].push_back(task_json(task, profile));

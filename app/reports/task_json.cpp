@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "app/machines/fence_tables.hpp"
@@ -74,20 +75,56 @@ json fences_json(const FenceSet& fences, bool has_design) {
   return result;
 }
 
+/// Between two heights for the page, at most, m: of a design's rounded kinks (kUsualRounding_m) it
+/// then draws 3 mm off where 1:2 meets 1:2.
+constexpr double kShownStep_m = 0.05;
+
+/// The controller's own heights, in its counts: each is told less the known one before it, the
+/// first less 0; null: there is none.
+json surface_json(const DesignSurface& surface) {
+  const int stride = std::max(1, static_cast<int>(kShownStep_m / surface.step_m + 0.01));
+  json heights = json::array();
+  int before = 0;
+  for (int row = 0; row < surface.rows; row += stride) {
+    for (int column = 0; column < surface.columns; column += stride) {
+      const int height = surface.height[row * surface.columns + column];
+      if (height == DesignSurface::kNone) {
+        heights.push_back(nullptr);
+      } else {
+        heights.push_back(height - before);
+        before = height;
+      }
+    }
+  }
+  return {{"columns", (surface.columns + stride - 1) / stride},
+          {"rows", (surface.rows + stride - 1) / stride},
+          {"step_m", rounded(stride * surface.step_m)},
+          {"unit_m", DesignSurface::kUnit_m},
+          {"base_m", rounded(surface.base_m)},
+          {"machine_m", {rounded(surface.machine_m.x()), rounded(surface.machine_m.y())}},
+          {"heading_rad", std::atan2(surface.sine, surface.cosine)},
+          {"heights", heights}};
+}
+
 }  // namespace
 
 json task_json(const machines::TaskFile& task, const ExcavatorProfile& profile) {
   const SwingKinematics kinematics(profile.geometry);
   const TaskProgram& program = task.result.program;
-  json result = {{"name", task.name}, {"steps", json::array()}, {"design", nullptr}};
+  json result = {
+      {"name", task.name}, {"steps", json::array()}, {"design", nullptr}, {"surface", nullptr}};
   for (int i = 0; i < program.step_count; ++i) {
     const auto k = static_cast<unsigned>(i);
     result["steps"].push_back(step_json(kinematics, program.step[k], task.result.note[k]));
   }
-  result["fences"] = fences_json(program.fences, task.request.has_design);
+  result["fences"] =
+      fences_json(program.fences, task.request.has_design || task.surface != nullptr);
   if (task.request.has_design) {
     const DesignPlane& design = task.request.design;
     result["design"] = {{"through_m", vector(design.through_m)}, {"up", vector(design.up)}};
+  }
+  if (task.surface != nullptr) {
+    result["surface"] = surface_json(task.surface->surface);
   }
   return result;
 }

@@ -41,7 +41,7 @@ struct Tile {
 
   [[nodiscard]] Cell at(std::size_t n) const;
   /// False, and nothing has changed, where a height is too far from the base.
-  [[nodiscard]] bool put(std::size_t n, const Cell& cell);
+  [[nodiscard]] bool put(std::size_t n, const Cell& from);
   [[nodiscard]] CellPlace place_of(std::size_t n) const {
     return {kTileSide * i + static_cast<std::int32_t>(n % kTileSide),
             kTileSide * j + static_cast<std::int32_t>(n / kTileSide)};

@@ -6,6 +6,8 @@
 /// swing axis meets the ground, a dozer's is its track ground line at the start of the grade.
 /// Planar link frames of an excavator are those of its profile: x along the link, from pin to pin.
 
+import type {SurfaceGrid} from './surface_grid';
+
 export type Kind = 'excavator' | 'dozer';
 export type Vector2 = readonly [number, number];
 export type Vector3 = readonly [number, number, number];
@@ -76,6 +78,7 @@ export interface ExcavatorMachine extends AnyMachine {
   imus?: {boom: Imu; arm: Imu; bucket: Imu};  ///< The profile's, or where an IMU usually is.
   pumps: number;
   relief_pa: number;
+  assist_window_m?: number;  ///< So near over its design task Assist holds the edge.
   dig: Dig;
   tasks: readonly Task[];  ///< By the number that TaskStatus has.
 }
@@ -149,6 +152,7 @@ export interface Task {
   fences: readonly Fence[];
   /// The surface to dig to, where the task has one; its fence is the last of `fences`.
   design: {through_m: Vector3; up: Vector3} | null;
+  surface?: SurfaceGrid | null;  ///< The same as heights, where it is no plane.
 }
 
 /// A plane: what is left to the machine is normal . p <= offset_m. Else an upright box or cylinder.

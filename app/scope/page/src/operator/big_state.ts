@@ -6,6 +6,7 @@ import {count, time_words} from '../view/basics/format';
 import {is_live, type PageState} from '../view/basics/page_state';
 import {snapshot, type Mode} from '../view/basics/snapshot';
 import type {PageWords} from '../view/basics/words';
+import {assist_words} from './assist';
 
 export interface BigState {
   word: string;
@@ -53,7 +54,8 @@ export function big_state(state: PageState, words: PageWords): BigState {
     return {word, mode: now.mode,
       more: now.fault === 0 ? MODE_WORDS[now.mode] : sentence(words.fault(now.fault))};
   }
-  const more = loud(state, words)
+  const assist = now.mode === 'Active' ? assist_words(store, playhead.now_s) : null;
+  const more = loud(state, words) ?? assist
     ?? (now.waits_for !== 0 ? `Not ready yet: ${words.fault(now.waits_for)}` : MODE_WORDS[now.mode]);
   return {word: now.mode, mode: now.mode, more};
 }

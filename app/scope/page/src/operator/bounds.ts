@@ -22,7 +22,7 @@ export function shown_task(machine: ExcavatorMachine, task: ShownTask): Task | n
 
 /// Those of a task that are no design.
 export const own_fences = (task: Task | null): readonly Fence[] =>
-  task === null ? [] : task.design ? task.fences.slice(0, -1) : task.fences;
+  task === null ? [] : task.design || task.surface ? task.fences.slice(0, -1) : task.fences;
 
 /// Where planes cut the upright plane through the swing axis, over reach and height.
 export const in_section = ({normal, offset_m}: Fence, swing_rad: number): Bound | null =>

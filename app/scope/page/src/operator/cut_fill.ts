@@ -8,6 +8,7 @@ import {ahead_on_path, designHeight, fresh} from '../model/wanted';
 import {fixed} from '../view/basics/format';
 import {dozer_state, excavator_state} from '../scene/machine_state';
 import type {ShownTask} from '../scene/shown_task';
+import {design_of, type HeightAt} from './design';
 
 /// So near is on it: what a dozer is held to (README, Numbers).
 export const ON_GRADE_M = 0.01;
@@ -68,8 +69,20 @@ function off_task(
   if (told === undefined) {
     return null;
   }
+  if (told.surface) {
+    return off_surface(design_of(told)!, machine, pose.swing_rad, teeth);
+  }
   return told.design !== null ? {off_m: off_plane(told.design, teeth), from: 'design'}
     : off_step(told, fresh(store, 'TaskStatus.Step', now_s), teeth);
+}
+
+/// Vertically, of the lowest of the edge's middle and its corners; null beyond the design's border.
+function off_surface(
+  design: HeightAt, machine: ExcavatorMachine, swing_rad: number, [x, y, z]: Vector3): Off | null {
+  const half = 0.5 * (machine.bucket_width_m ?? 0);
+  const off = [-half, 0, half].map((aside) =>
+    z - design(x - aside * Math.sin(swing_rad), y + aside * Math.cos(swing_rad)));
+  return off.some(Number.isNaN) ? null : {off_m: Math.min(...off), from: 'design'};
 }
 
 /// Along the vertical.

@@ -8,6 +8,7 @@ import type {HeightField} from '../scene/height_field';
 import {type ShownTask, TaskChoice} from '../scene/shown_task';
 import type {TerrainHistory} from '../scene/terrain_history';
 import {type SceneColours, scene_colours} from '../scene/theme';
+import {assist_of} from './assist';
 import type {PageState} from '../view/basics/page_state';
 
 export type MachineNow =
@@ -17,6 +18,7 @@ export type MachineNow =
 export interface Frame {
   now: MachineNow;
   task: ShownTask;
+  assists: boolean;  ///< Task Assist follows that task's design.
   ground: HeightField;
   colours: SceneColours;
   old: boolean;  ///< The edge is not where it is drawn any more.
@@ -50,7 +52,8 @@ export class FrameMaker {
       ? {kind: 'dozer', machine, at: dozer_state(machine, store, now_s)}
       : {kind: 'excavator', machine, at: excavator_state(machine, store, now_s)};
     return {
-      now, task: this.choice?.at(store, now_s) ?? 'none', ground: this.history!.field,
+      now, assists: assist_of(store, now_s) !== null,
+      task: this.choice?.at(store, now_s) ?? 'none', ground: this.history!.field,
       colours: scene_colours(dark),
       old: state.is_gone || (now.kind === 'dozer' ? now.at.stale.blade : now.at.stale.bucket)};
   }

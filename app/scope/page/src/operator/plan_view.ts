@@ -6,6 +6,7 @@ import {blade_width} from '../scene/dozer_shape';
 import {reach_m} from '../scene/soil_shape';
 import {draw_bound, in_plan, own_fences, ring_of, shown_task} from './bounds';
 import {dozer_above, excavator_above, type Flat} from '../scene/figure';
+import {built_as, design_of} from './design';
 import type {Frame} from './frame';
 import {type Metres, Picture, type Span} from '../view/basics/picture';
 
@@ -34,6 +35,7 @@ export class PlanView {
         colours.design, LINE);
       this.machine(now.at.pose === null ? [] : dozer_above(now.machine, now.at.pose), metres, frame);
     } else {
+      this.built(metres, frame);
       this.task(metres, frame);
       this.machine(now.at.pose === null ? [] : excavator_above(now.machine, now.at.pose), metres, frame);
       this.bounds(metres, frame, pose === null || now.at.pose === null ? 0 : now.at.pose.position_m[2]);
@@ -46,6 +48,25 @@ export class PlanView {
       this.picture.area(outline.map((point) => metres.at(turned(point))),
         old ? colours.stale : paint, colours.edge);
     }
+  }
+
+  /// Ground that the edge has cut, by how far it is off the design: cut and fill in colours.
+  private built(metres: Metres, {now, task, ground, colours}: Frame): void {
+    const design = now.kind === 'excavator' ? design_of(shown_task(now.machine, task)) : null;
+    if (design === null) {
+      return;
+    }
+    const paint = {over: colours.over, under: colours.under, on: colours.design};
+    // A little more: no gaps between cells.
+    const half = 0.52 * ground.grid.cell_m;
+    ground.each_cut((x, y, z) => {
+      const off_m = z - design(x, y);
+      if (!Number.isNaN(off_m)) {
+        const ring: Vector2[] = [[x - half, y - half], [x + half, y - half], [x + half, y + half],
+          [x - half, y + half]];
+        this.picture.area(ring.map((point) => metres.at(turned(point))), paint[built_as(off_m)]);
+      }
+    });
   }
 
   /// The lines of the task that runs.

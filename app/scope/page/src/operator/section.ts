@@ -6,6 +6,7 @@ import type {HeightField} from '../scene/height_field';
 import {reach_m} from '../scene/soil_shape';
 import {draw_bound, in_section, kept_out, own_fences, shown_task} from './bounds';
 import {dozer_side, excavator_side, type Flat} from '../scene/figure';
+import {design_lines, design_of} from './design';
 import type {Frame} from './frame';
 import {type Metres, Picture, type Span} from '../view/basics/picture';
 
@@ -73,12 +74,14 @@ export class Section {
           Vector2[]).map((point) => metres.at(point)), `${colours.fence}55`, colours.fence, LINE);
       }
     }
-    if (task?.design) {
-      const {through_m, up} = task.design;
-      const slope = -(up[0] * Math.cos(swing_rad) + up[1] * Math.sin(swing_rad)) / up[2];
-      const over_m = through_m[2] + (up[0] * through_m[0] + up[1] * through_m[1]) / up[2];
-      this.line(metres, metres.seen.u.map((reach): Vector2 => [reach, over_m + slope * reach]),
-        colours.design);
+    const design = design_of(task);
+    for (const line of design === null ? [] : design_lines(design, swing_rad, metres.seen.u)) {
+      this.line(metres, line, colours.design);
+      const window_m = frame.assists ? machine.assist_window_m ?? 0 : 0;
+      if (window_m > 0) {
+        this.picture.line(line.map(([reach, z]) => metres.at([reach, z + window_m])), colours.design, 2,
+          [10, 8]);
+      }
     }
   }
 }

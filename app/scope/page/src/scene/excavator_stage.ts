@@ -131,7 +131,7 @@ export class ExcavatorStage implements Stage {
     this.task_parts.push(layer);
     const reach = reach_m(this.machine);
     // The last fence is the design's own.
-    const fences = task.design ? task.fences.slice(0, -1) : task.fences;
+    const fences = task.design || task.surface ? task.fences.slice(0, -1) : task.fences;
     fences.forEach((fence, i) => {
       const {normal, offset_m, centre_m, half_m, round, turn_rad} = fence;
       if (normal && offset_m !== undefined) {

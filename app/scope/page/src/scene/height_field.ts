@@ -65,6 +65,16 @@ export class HeightField {
     return this.at_nearest(this.heights, x_m, y_m);
   }
 
+  /// Calls `tell` with each node that is shown lower than at the start.
+  each_cut(tell: (x_m: number, y_m: number, z_m: number) => void): void {
+    const {x_m, y_m, cell_m, columns} = this.grid;
+    this.heights.forEach((z_m, node) => {
+      if (z_m < this.start[node]!) {
+        tell(x_m + cell_m * (node % columns), y_m + cell_m * Math.floor(node / columns), z_m);
+      }
+    });
+  }
+
   private at_nearest(heights: Float32Array, x_m: number, y_m: number): number {
     const {cell_m, columns, rows} = this.grid;
     const column = Math.round((x_m - this.grid.x_m) / cell_m);

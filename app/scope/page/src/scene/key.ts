@@ -13,7 +13,7 @@ export function excavator_key(
 ): KeyEntry[] {
   const task = typeof shown === 'number' ? machine.tasks[shown] : undefined;
   const fastest = fastest_mps(machine.dig);
-  const own_fences = task ? task.fences.length - (task.design ? 1 : 0) : 0;
+  const own_fences = task ? task.fences.length - (task.design || task.surface ? 1 : 0) : 0;
   const entries: (KeyEntry | false)[] = [
     layers.ghost && has_frames && {mark: 'ghost', words: 'wanted pose'},
     layers.path && shown === 'dig' && {mark: 'path', words: 'wanted path'},

@@ -9,6 +9,7 @@ export type ShownTask = 'dig' | 'none' | number;
 /// By the number that OperatorCommand.Task has.
 const kDig = 1;
 const kProgram = 3;
+export const kAssist = 7;
 /// A stopped operator asks for nothing: what was asked for before is searched this often.
 const kProbes = 64;
 
@@ -40,7 +41,8 @@ export class TaskChoice {
       return 'dig';
     }
     const number = store.reading('OperatorCommand.TaskNumber', time_s);
-    return task.value === kProgram && number.state === 'valid' &&
+    // Assist follows the design of the task with that number.
+    return (task.value === kProgram || task.value === kAssist) && number.state === 'valid' &&
       this.machine.tasks[number.value] ? number.value : null;
   }
 

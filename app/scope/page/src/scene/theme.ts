@@ -15,6 +15,8 @@ export interface SceneColours {
   path: string;       ///< Path, field and trail.
   trail: string;
   design: string;
+  over: string;       ///< Ground over its design, to be cut; under it, to be filled.
+  under: string;
   fence: string;
   ghost: string;
   sky_light: string;
@@ -28,14 +30,16 @@ export const scene_colours = (dark: boolean): SceneColours => dark ? kDark : kLi
 const kLight: SceneColours = {
   background: '#eef0f1', ground: '#e2e0da', soil: '#d3c5ad', cut: '#b08f68', grid: '#8b8880',
   edge: '#2a2c2e', hidden: '#6f5d45', stale: '#a3a7aa', text: '#26292c', halo: '#f6f7f7',
-  path: '#1760c4', trail: '#0b3f8a', design: '#1c8a45', fence: '#c62f2f', ghost: '#1f4e8c',
+  path: '#1760c4', trail: '#0b3f8a', design: '#1c8a45', over: '#c2561b', under: '#2b62c4',
+  fence: '#c62f2f', ghost: '#1f4e8c',
   sky_light: '#ffffff', ground_light: '#c9c2b6', sky_power: 0.6, sun_power: 0.56,
 };
 
 const kDark: SceneColours = {
   background: '#14171a', ground: '#33383b', soil: '#5a4c3b', cut: '#86684a', grid: '#50575c',
   edge: '#0b0c0d', hidden: '#a98a63', stale: '#6d7276', text: '#e3e6e8', halo: '#14171a',
-  path: '#5aa2ff', trail: '#9cc8ff', design: '#46c878', fence: '#ff6b63', ghost: '#cfe2ff',
+  path: '#5aa2ff', trail: '#9cc8ff', design: '#46c878', over: '#f08a4b', under: '#6aa3ff',
+  fence: '#ff6b63', ghost: '#cfe2ff',
   sky_light: '#e9eef2', ground_light: '#4a4641', sky_power: 0.55, sun_power: 0.55,
 };
 
