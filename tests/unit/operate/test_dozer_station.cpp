@@ -2,6 +2,7 @@
 // A dozer is commissioned over the bus, by the station: to its end, after a break, and not by what
 // another kind's station would send.
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -183,6 +184,26 @@ TEST(another_run_goes_on_from_the_file) {
     assert_int_equal(bench.station->end(), CommissionEnd::kDone);
     assert_same(bench.results());
   }
+}
+
+/// Largest displacement of a step of the tracks that do not move.
+double most_pump(commission::TravelLead lead) {
+  lead.begin({1, commission::kTravelLevelCount - 1, false});
+  double most = 0.0;
+  for (int n = 0; n < 300 && !lead.step(0.0, 0.0); ++n) {
+    most = std::max(most, std::abs(lead.pump_ratio()));
+  }
+  return most;
+}
+
+TEST(how_fast_the_tracks_were_bounds_the_next_step) {
+  commission::TravelLead lead({-3.0, 3.0, 0.5});
+  const double unknown = most_pump(lead);
+  lead.remember({1, 0, true}, {commission::StepEnd::kDone, 0.1, 5.0, 1.0});  // The motors.
+  assert_near(most_pump(lead), unknown, 0.0);
+  lead.remember({1, 1, false}, {commission::StepEnd::kDone, 0.25, 0.5, 1.0});
+  assert_true(most_pump(lead) < 0.25);
+  assert_true(unknown > 0.25);
 }
 
 std::string refusal(const std::filesystem::path& file, std::uint32_t hash,
