@@ -50,7 +50,7 @@ TEST(the_page_has_the_heights_of_the_controllers_design) {
       }
     }
   }
-  assert_true(known > 2000);
+  assert_true(known > 1000);
 }
 
 TEST(a_plane_is_told_as_a_plane) {
