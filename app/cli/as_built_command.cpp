@@ -287,10 +287,9 @@ void add_as_built(CLI::App& app, int& status) {
                       "Name in the files; that of the first log unless told");
   command->add_flag("--any-machine", options->ask.any_machine,
                     "Take a log whose machine says another profile, or none");
-  add_examples(*command,
-               {"as-built --log day.log --profile excavator_12t --out asbuilt.xml",
-                "as-built --record /var/lib/graben-ecu --profile my.toml --design site.xml --out "
-                "a.xml"});
+  add_examples(*command, {"as-built --log day.log --profile excavator_12t --out asbuilt.xml",
+                          "as-built --log day.log --profile my.toml --design site.xml --out a.xml",
+                          "as-built --record /var/lib/graben-ecu --profile my.toml --out a.xml"});
   command->callback([options, command, &status] {
     status = guarded("as-built", [&] {
       refuse_beside_record(*options, *command);
