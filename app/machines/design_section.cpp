@@ -190,7 +190,8 @@ TaskDesign read_task_design(TomlReader& reader, const ExcavatorProfile& profile,
     return design;
   }
   try {
-    const double far_m = reach_m(profile);
+    // Wherever the machine stands, the benchmark is within its reach.
+    const double far_m = (places.by_touch ? 2.0 : 1.0) * reach_m(profile);
     design.surface =
         of_file ? held_surface(read_ascii_grid(beside(places.folder, file)), places.site,
                                rounding_m, far_m)

@@ -15,6 +15,7 @@ namespace graben::machines {
 struct DesignPlaces {
   SiteFrame site;                ///< Places of the design are the site's.
   bool has_site = false;         ///< Else they are the machine's.
+  bool by_touch = false;         ///< Where the machine stands is not known yet.
   std::filesystem::path folder;  ///< A file is looked for beside it.
 };
 

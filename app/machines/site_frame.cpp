@@ -39,6 +39,58 @@ double apart_m(const std::vector<TouchedPoint>& points) {
   return most_m;
 }
 
+/// Benchmark and second point can be touched at run time.
+void can_touch(TomlReader& reader, const char* key, const Eigen::Vector3d& second_m,
+               SiteSection& site) {
+  const double far_m = (second_m - site.frame.benchmark_m).head<2>().norm();
+  if (far_m < kLeastApart_m) {
+    reader.fail(key, fmt::format("{:.2f} m from the benchmark, seen from above; allowed: {} m and "
+                                 "more, or the heading is not known",
+                                 far_m, kLeastApart_m));
+    return;
+  }
+  site.points.can_touch = true;
+  site.points.benchmark_m = site.frame.touched_m;
+  site.points.second_m = site.frame.to_machine(second_m);
+}
+
+/// The touched points; the farthest from the benchmark is the second one.
+SiteSection read_points(TomlReader& reader) {
+  SiteSection site;
+  const int count = reader.table_count("site.point", 2, kMostTouched,
+                                       "touched points, a table each, the benchmark first");
+  std::vector<TouchedPoint> points;
+  for (int i = 0; i < (reader.lists() ? 1 : count); ++i) {
+    const std::string at = fmt::format("site.point[{}]", i);
+    points.push_back({three(reader, at + ".place", kOfSite, "east, north and height of a point"),
+                      three(reader, at + ".touched", kOfMachine,
+                            "x, y and z of the teeth as they stood on it")});
+  }
+  const double bound_m = reader.number_or(kUsualBound_m, "site.bound", {0.002, 0.5, "m"},
+                                          "so far the touched points may contradict each other");
+  if (!reader.is_sound() || reader.lists()) {
+    return site;
+  }
+  try {
+    site.frame = fit_site(points, bound_m).frame;
+  } catch (const std::runtime_error& error) {
+    reader.fail("site.point", error.what());
+    return site;
+  }
+  const Eigen::Vector3d first_m = points.front().site_m;
+  const auto far_m = [&first_m](const TouchedPoint& point) {
+    return (point.site_m - first_m).head<2>().norm();
+  };
+  const auto second = std::max_element(points.begin(), points.end(),
+                                       [&](const TouchedPoint& one, const TouchedPoint& other) {
+                                         return far_m(one) < far_m(other);
+                                       });
+  if (far_m(*second) >= kLeastApart_m) {
+    can_touch(reader, "site.point", second->site_m, site);
+  }
+  return site;
+}
+
 }  // namespace
 
 Eigen::Vector3d SiteFrame::to_site(const Eigen::Vector3d& machine_m) const {
@@ -93,39 +145,43 @@ SiteFit fit_site(const std::vector<TouchedPoint>& points, double bound_m) {
   return fit;
 }
 
-SiteFrame read_site(TomlReader& reader) {
-  SiteFrame frame;
-  const bool by_points = reader.has("site.point");
-  if (by_points) {
-    const int count = reader.table_count("site.point", 2, kMostTouched,
-                                         "touched points, a table each, the benchmark first");
-    std::vector<TouchedPoint> points;
-    for (int i = 0; i < (reader.lists() ? 1 : count); ++i) {
-      const std::string at = fmt::format("site.point[{}]", i);
-      points.push_back({three(reader, at + ".place", kOfSite, "east, north and height of a point"),
-                        three(reader, at + ".touched", kOfMachine,
-                              "x, y and z of the teeth as they stood on it")});
-    }
-    const double bound_m = reader.number_or(kUsualBound_m, "site.bound", {0.002, 0.5, "m"},
-                                            "so far the touched points may contradict each other");
-    if (reader.is_sound()) {
-      try {
-        frame = fit_site(points, bound_m).frame;
-      } catch (const std::runtime_error& error) {
-        reader.fail("site.point", error.what());
-      }
-    }
+bool SiteSection::is_like(const SiteSection& other) const {
+  constexpr double kSame = 1e-6;
+  return (frame.benchmark_m - other.frame.benchmark_m).norm() < kSame &&
+         (frame.touched_m - other.frame.touched_m).norm() < kSame &&
+         std::abs(frame.heading_rad - other.frame.heading_rad) < kSame &&
+         points.can_touch == other.points.can_touch && points.by_touch == other.points.by_touch &&
+         (points.second_m - other.points.second_m).norm() < kSame;
+}
+
+SiteSection read_site(TomlReader& reader) {
+  if (reader.lists()) {
+    static_cast<void>(read_points(reader));
+  } else if (reader.has("site.point")) {
+    return read_points(reader);
   }
-  if (!by_points || reader.lists()) {
-    frame.benchmark_m =
-        three(reader, "site.benchmark", kOfSite, "east, north and height of a place of the site");
+  SiteSection site;
+  SiteFrame& frame = site.frame;
+  frame.benchmark_m =
+      three(reader, "site.benchmark", kOfSite, "east, north and height of a place of the site");
+  const bool has_second = reader.has("site.second");
+  site.points.by_touch = has_second && !reader.has("site.touched") && !reader.has("site.heading");
+  if (!site.points.by_touch || reader.lists()) {
     frame.touched_m = three(reader, "site.touched", kOfMachine,
                             "x, y and z of the teeth as they stood on the benchmark");
     frame.heading_rad =
         reader.number("site.heading", {-6.3, 6.3, "rad"},
                       "of the machine's x axis (swing 0) against east, to the left");
   }
-  return frame;
+  if (has_second || reader.lists()) {
+    const Eigen::Vector3d second_m =
+        three(reader, "site.second", kOfSite,
+              "east, north and height of another place, for touching the heading at run time");
+    if (reader.is_sound()) {
+      can_touch(reader, "site.second", second_m, site);
+    }
+  }
+  return site;
 }
 
 std::string site_text(const SiteFrame& frame) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "firmware/excavator/fences/site_frame.hpp"
+
 namespace graben::machines {
 
 class TomlReader;
@@ -48,8 +50,21 @@ struct SiteFit {
 /// from another, or one that lies more than `bound_m` from where the others have it; it says which.
 [[nodiscard]] SiteFit fit_site(const std::vector<TouchedPoint>& points, double bound_m);
 
-/// Section [site]: benchmark, touched and heading, or the points instead; errors are the reader's.
-[[nodiscard]] SiteFrame read_site(TomlReader& reader);
+/// Section [site].
+struct SiteSection {
+  /// With points that are touched at run time: as if the machine stood on the benchmark and looked
+  /// east.
+  SiteFrame frame;
+  SitePoints points;  ///< In the frame that the design is read into.
+
+  /// Of the same site, given alike.
+  [[nodiscard]] bool is_like(const SiteSection& other) const;
+};
+
+/// Section [site]: benchmark, touched and heading, or the points instead; with `second` the points
+/// can be touched at run time, and without touched and heading they have to be. Errors are the
+/// reader's.
+[[nodiscard]] SiteSection read_site(TomlReader& reader);
 
 /// The same as text of that section.
 [[nodiscard]] std::string site_text(const SiteFrame& frame);

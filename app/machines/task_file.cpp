@@ -74,7 +74,14 @@ TaskContent read_step_task(TomlReader& reader, const ExcavatorProfile& profile,
   places.folder = folder;
   places.has_site = reader.has("site");
   if (places.has_site) {
-    places.site = read_site(reader);
+    content.site = read_site(reader);
+    places.site = content.site->frame;
+    places.by_touch = content.site->points.by_touch;
+    if (places.by_touch && digs && !reader.lists()) {
+      reader.fail("site",
+                  "has neither touched nor heading: its points are touched at run time, and steps "
+                  "are planned before; allowed: a design without steps, for task Assist");
+    }
   }
   TaskDesign design;
   if (has_design) {
@@ -115,6 +122,7 @@ TaskFile load_task(const std::filesystem::path& file, const ExcavatorProfile& pr
     TaskContent content = read_step_task(reader, profile, file.parent_path());
     task.request = content.request;
     task.surface = std::move(content.surface);
+    task.site = content.site;
   }
   reader.refuse_unknown_keys();
   throw_errors(document, reader);
@@ -139,6 +147,31 @@ std::filesystem::path find_task(const std::string& name,
   return find_file("task", name, folders);
 }
 
+namespace {
+
+/// The site of all of them into the book.
+void join_site(const TaskFile& task, bool is_first, std::optional<SiteSection>& site,
+               TaskBook& book) {
+  const bool has_design = graben::has_design(task.result.program.fences);
+  const bool by_touch = site && site->points.by_touch;
+  const bool other = task.site && site && !task.site->is_like(*site);
+  // A design of the machine's own frame does not move with one that has to be touched.
+  const bool mixed =
+      has_design && !is_first && (task.site ? task.site->points.by_touch && !site : by_touch);
+  if (other || mixed) {
+    throw std::runtime_error(fmt::format(
+        "{}: its [site] is another one than that of a task before it; allowed: the same of all, "
+        "for the machine stands in one place",
+        task.name));
+  }
+  if (task.site) {
+    site = task.site;
+    book.site = site->points;
+  }
+}
+
+}  // namespace
+
 TaskShelf load_tasks(const std::vector<std::string>& names,
                      const std::vector<std::filesystem::path>& folders,
                      const ExcavatorProfile& profile) {
@@ -147,11 +180,15 @@ TaskShelf load_tasks(const std::vector<std::string>& names,
   }
   TaskShelf shelf;
   std::vector<std::string> errors;
+  std::optional<SiteSection> site;
+  bool has_design = false;
   for (const std::string& name : names) {
     try {
       TaskProgram& program = shelf.book.program[static_cast<unsigned>(shelf.book.count++)];
       TaskFile task = load_task(find_task(name, folders), profile);
       program = task.result.program;
+      join_site(task, !has_design, site, shelf.book);
+      has_design = has_design || graben::has_design(program.fences);
       shelf.surfaces.push_back(std::move(task.surface));
     } catch (const std::exception& error) {
       errors.emplace_back(error.what());

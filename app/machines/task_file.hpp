@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct TaskFile {
   /// Memory of the design, where it is no plane: the last of the program's fences looks at it, so
   /// it has to be kept as long as anything has one of these.
   std::shared_ptr<const HeldSurface> surface;
+  std::optional<SiteSection> site;  ///< That its design lies on.
 
   /// It has steps; else it only says, for task Assist, what is to be made and what must not be
   /// passed.
@@ -35,6 +37,7 @@ struct TaskFile {
 struct TaskContent {
   ProgramRequest request;
   std::shared_ptr<const HeldSurface> surface;
+  std::optional<SiteSection> site;
 };
 
 /// Programs that can be chosen, and the memory of their surfaces.
@@ -64,7 +67,8 @@ void demand_steps(const TaskFile& task, const std::string& wanted_by);
 [[nodiscard]] std::filesystem::path find_task(const std::string& name);
 
 /// Tasks by file or by name in the folders, at most kTaskMost; the first has the number 0. Throws
-/// std::runtime_error with every error of every one of them.
+/// std::runtime_error with every error of every one of them, and where their designs lie on sites
+/// that are given otherwise: the machine stands in one place.
 [[nodiscard]] TaskShelf load_tasks(const std::vector<std::string>& names,
                                    const std::vector<std::filesystem::path>& folders,
                                    const ExcavatorProfile& profile);

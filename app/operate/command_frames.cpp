@@ -62,7 +62,8 @@ CommandPair CommandFrames::last_words(TimeUs now) const {
   return CommandFrames(*this).next({}, {0, dbc::RawState::kNotAvailable}, now);
 }
 
-void TouchFrames::begin(TimeUs now) {
+void TouchFrames::begin(TouchKind kind, TimeUs now) {
+  kind_ = kind;
   number_ = static_cast<std::uint8_t>(number_ < Touched::kNumber.raw_max ? number_ + 1 : 0);
   has_begun_ = true;
   until_us_ = now + kSaid_us;
@@ -76,7 +77,7 @@ std::optional<CanFrame> TouchFrames::next(TimeUs now) {
   next_us_ = now + kTouchRule.period_us;
   Touched message;
   message.number = {number_, kValid};
-  message.kind = {Touched::Kind::kMark, kValid};
+  message.kind = {static_cast<Touched::Kind>(kind_), kValid};
   return next_frame(kTouchRule, touch_, message.encode(), now);
 }
 

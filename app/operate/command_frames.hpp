@@ -40,18 +40,19 @@ class CommandFrames {
   bool less_ = false;  ///< In the next pair.
 };
 
-/// Says for 1 s that the tool is at the mark.
+/// Says for 1 s that the tool is at a point, or that the tracks have moved.
 class TouchFrames {
  public:
   static constexpr TimeUs kSaid_us = kSecondUs;
 
   /// The operator says so: a touch of its own, whatever was said before.
-  void begin(TimeUs now);
+  void begin(TouchKind kind, TimeUs now);
   /// Once a cycle: the frame that is due.
   [[nodiscard]] std::optional<CanFrame> next(TimeUs now);
 
  private:
   SendState touch_;
+  TouchKind kind_ = TouchKind::kMark;
   std::uint8_t number_ = 0;
   bool has_begun_ = false;
   TimeUs until_us_ = 0;

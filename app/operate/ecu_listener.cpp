@@ -75,6 +75,7 @@ void EcuListener::hear(const CanFrame& frame, TimeUs now) {
   take(frame, now, task_);
   take(frame, now, tip_load_);
   take(frame, now, checks_);
+  take(frame, now, motion_);
   take(frame, now, spools_);
   take(frame, now, swing_spool_);
   take_stroke(frame, &Dbc::SwingState::swing_angle_rad, now, swing_);

@@ -49,6 +49,7 @@ class EcuListener {
   [[nodiscard]] const Heard<Dbc::TaskStatus>& task() const { return task_; }
   [[nodiscard]] const Heard<Dbc::EcuTipLoad>& tip_load() const { return tip_load_; }
   [[nodiscard]] const Heard<Dbc::EcuChecks>& checks() const { return checks_; }
+  [[nodiscard]] const Heard<Dbc::EcuMotion>& motion() const { return motion_; }
   /// Of boom, arm, bucket; empty where none came of late, or none that is valid.
   [[nodiscard]] std::array<std::optional<double>, 3> strokes_m(TimeUs now) const;
   /// Duties of boom, arm and bucket as the controller sent them last; 0 before.
@@ -91,6 +92,7 @@ class EcuListener {
   Heard<Dbc::TaskStatus> task_;
   Heard<Dbc::EcuTipLoad> tip_load_;
   Heard<Dbc::EcuChecks> checks_;
+  Heard<Dbc::EcuMotion> motion_;
   Heard<Dbc::SpoolCommand> spools_;
   Heard<Dbc::SwingCommand> swing_spool_;
   std::array<Stroke, 3> strokes_;

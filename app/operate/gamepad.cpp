@@ -121,8 +121,9 @@ Gamepad::~Gamepad() = default;
 
 std::string Gamepad::help() const {
   return "Hold the left shoulder button: enable. Left stick: swing, arm. Right stick:\n"
-         "boom, bucket. Start: mode. Select: task. D-pad up, down: speed. Upper button of\n"
-         "the right four: teeth at the mark. Ctrl-C: end";
+         "boom, bucket. Start: mode. Select: task. D-pad up, down: speed. Right four\n"
+         "buttons, teeth at: upper the mark, left the benchmark, right the heading's point,\n"
+         "lower a made place, to check. Left stick pressed: tracks moved. Ctrl-C: end";
 }
 
 void Gamepad::reopen(TimeUs now) {
@@ -204,7 +205,7 @@ Hands Gamepad::read(TimeUs now) {
   hands.speed_steps = presses.speed_steps;
   hands.changes_mode = presses.changes_mode;
   hands.changes_task = presses.changes_task;
-  hands.at_mark = presses.at_mark;
+  hands.touches = presses.touches;
   return hands;
 }
 

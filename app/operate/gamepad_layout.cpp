@@ -70,14 +70,35 @@ Hands hands_of(const libevdev* device) {
   return hands;
 }
 
+namespace {
+
+std::optional<TouchKind> touch_of(unsigned button) {
+  switch (button) {
+    case kMarkButton:
+      return TouchKind::kMark;
+    case kBenchmarkButton:
+      return TouchKind::kBenchmark;
+    case kHeadingButton:
+      return TouchKind::kHeading;
+    case kSurfaceButton:
+      return TouchKind::kSurface;
+    case kMovedButton:
+      return TouchKind::kMoved;
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
 void note_press(const input_event& event, Hands& hands) {
   const bool is_button = event.type == EV_KEY && event.value == 1;
   if (is_button && event.code == kModeButton) {
     hands.changes_mode = !hands.changes_mode;
   } else if (is_button && event.code == kTaskButton) {
     hands.changes_task = !hands.changes_task;
-  } else if (is_button && event.code == kMarkButton) {
-    hands.at_mark = true;
+  } else if (is_button && touch_of(event.code)) {
+    hands.touches = touch_of(event.code);
   } else if (is_button && event.code == BTN_DPAD_UP) {
     ++hands.speed_steps;
   } else if (is_button && event.code == BTN_DPAD_DOWN) {

@@ -16,6 +16,10 @@ inline constexpr unsigned kDeadmanButton = BTN_TL;
 inline constexpr unsigned kModeButton = BTN_START;
 inline constexpr unsigned kTaskButton = BTN_SELECT;
 inline constexpr unsigned kMarkButton = BTN_NORTH;
+inline constexpr unsigned kBenchmarkButton = BTN_WEST;
+inline constexpr unsigned kHeadingButton = BTN_EAST;
+inline constexpr unsigned kSurfaceButton = BTN_SOUTH;
+inline constexpr unsigned kMovedButton = BTN_THUMBL;
 
 /// Empty if the station can work with the device; else what it lacks.
 [[nodiscard]] std::string what_is_missing(const libevdev* device);
@@ -24,7 +28,7 @@ inline constexpr unsigned kMarkButton = BTN_NORTH;
 /// stick is the left lever, the right stick the right one.
 [[nodiscard]] Hands hands_of(const libevdev* device);
 
-/// Adds what an event presses: mode, task, mark, and with the d-pad's up and down the speed.
+/// Adds what an event presses: mode, task, touches, and with the d-pad's up and down the speed.
 void note_press(const input_event& event, Hands& hands);
 
 }  // namespace graben::operate

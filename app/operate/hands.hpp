@@ -2,10 +2,12 @@
 #pragma once
 /// The operator's hands, whatever they hold.
 
+#include <optional>
 #include <string>
 
 #include "app/operate/levers.hpp"
 #include "firmware/core/time.hpp"
+#include "firmware/signals/machine_signals.hpp"
 
 namespace graben::operate {
 
@@ -20,7 +22,7 @@ struct Hands {
   int speed_steps = 0;  ///< Faster is positive.
   bool changes_mode = false;
   bool changes_task = false;
-  bool at_mark = false;  ///< The tool is at the mark.
+  std::optional<TouchKind> touches;  ///< What the tool is at, or that the tracks have moved.
   bool quits = false;
 };
 

@@ -36,7 +36,8 @@ const LeverKey* lever_key(char key) {
 
 const char* keyboard_help() {
   return "Space, held: enable; then, held instead: e d arm, s f swing, i k boom, j l bucket.\n"
-         "m mode, t task, + - speed, p: teeth at the mark, any other key: let go, q: end.\n"
+         "m mode, t task, + - speed, any other key: let go, q: end. Teeth at p: the mark,\n"
+         "b: benchmark, h: heading's point, c: a made place, to check; v: tracks moved.\n"
          "Not for a machine";
 }
 
@@ -55,7 +56,19 @@ void KeyHold::press(char key, Hands& presses, TimeUs now) {
       presses.changes_task = !presses.changes_task;
       return;
     case 'p':
-      presses.at_mark = true;
+      presses.touches = TouchKind::kMark;
+      return;
+    case 'b':
+      presses.touches = TouchKind::kBenchmark;
+      return;
+    case 'h':
+      presses.touches = TouchKind::kHeading;
+      return;
+    case 'c':
+      presses.touches = TouchKind::kSurface;
+      return;
+    case 'v':
+      presses.touches = TouchKind::kMoved;
       return;
     case '+':
       ++presses.speed_steps;

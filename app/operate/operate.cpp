@@ -96,8 +96,8 @@ void Session::work() {
     const Trouble trouble =
         at.skipped >= kLateCycles ? Trouble::kStationLate : link_.trouble(at.now_us);
     request_ = station_.step(hands, {trouble, link_.ecu().mode(at.now_us)});
-    if (hands.at_mark) {
-      touch_.begin(at.now_us);
+    if (hands.touches) {
+      touch_.begin(*hands.touches, at.now_us);
     }
     send(request_, at.now_us);
     show(hands, cycle, at.now_us);

@@ -133,9 +133,38 @@ const char* refused_words(Dbc::EcuChecks::Touch touch) {
       return "; last touch refused: choose Manual first";
     case Touch::kNotKnown:
       return "; last touch refused: where the teeth are was not known";
+    case Touch::kNoPoint:
+      return "; last touch refused: no such point, or the benchmark comes first";
+    case Touch::kContradict:
+      return "; last touch refused: the site or its design has that point elsewhere";
     default:
       return "";
   }
+}
+
+/// Empty where the chosen task has no design, or the controller does not say.
+std::string site_text(const EcuListener& ecu, TimeUs now) {
+  using Frame = Dbc::EcuMotion::Frame;
+  constexpr TimeUs kOld_us = 500 * kMillisecondUs;
+  const auto& heard = ecu.motion();
+  if (!heard.is_fresh(now, kOld_us) || heard.said->frame.state != dbc::RawState::kValid) {
+    return "";
+  }
+  std::string text;
+  switch (heard.said->frame.value) {
+    case Frame::kNone:
+      return "";
+    case Frame::kUnknown:
+      text = "UNKNOWN: touch the benchmark";
+      break;
+    case Frame::kBenchmark:
+      text = "benchmark touched: now the heading's point";
+      break;
+    case Frame::kKnown:
+      text = "known";
+      break;
+  }
+  return ecu.checks().said ? text + refused_words(ecu.checks().said->touch.value) : text;
 }
 
 /// Empty where the profile has no mark, or the controller does not say.
@@ -204,6 +233,9 @@ void put_controller(std::vector<std::string>& lines, const View& view) {
   }
   if (const std::string mark = mark_text(ecu, view.now_us); !mark.empty()) {
     put(lines, "Mark", mark);
+  }
+  if (const std::string site = site_text(ecu, view.now_us); !site.empty()) {
+    put(lines, "Site", site);
   }
 }
 

@@ -160,7 +160,10 @@ class OperatorNode {
   void set_tries(const DozerHands& hands) { tries_ = hands; }
 
   /// From the next step on, for 1 s: the tool is at the mark.
-  void touch_mark() {
+  void touch_mark() { touch(Touch::Kind::kMark); }
+  /// Or at another point.
+  void touch(typename Dbc::TouchedPoint::Kind kind) {
+    touch_kind_ = kind;
     constexpr std::uint8_t kNumbers = 251;
     touch_number_ = static_cast<std::uint8_t>((touch_number_ + 1) % kNumbers);
     touch_cycles_ = kTouchCycles;
@@ -204,7 +207,7 @@ class OperatorNode {
     if (touch_cycles_ % static_cast<int>(Touch::kCycleTimeMs / 10) == 0) {
       Touch touch;
       touch.number = {touch_number_, dbc::RawState::kValid};
-      touch.kind = {Touch::Kind::kMark, dbc::RawState::kValid};
+      touch.kind = {touch_kind_, dbc::RawState::kValid};
       sender_.send(touch, faults_, now);
     }
     --touch_cycles_;
@@ -261,6 +264,7 @@ class OperatorNode {
   std::optional<DozerHands> tries_;
   std::size_t turn_ = kAxisCount - 1;  ///< Whose window was sent last.
   bool less_ = false;                  ///< The last levers were told so.
+  typename Dbc::TouchedPoint::Kind touch_kind_ = {};
   std::uint8_t touch_number_ = 0;
   int touch_cycles_ = 0;  ///< Left of the one that is said.
   std::uint64_t cycle_ = 0;

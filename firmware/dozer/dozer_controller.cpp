@@ -34,7 +34,7 @@ DozerOutputs DozerController::step(const DozerInputs& inputs, TimeUs now_us) {
   DozerOutputs outputs;
   put_out(machine_, valid, motion, travel, tried, cycle.period_s, decision, is.output, outputs);
   end_cycle(decision, valid, is.cycle, outputs, outputs.status);
-  check_mark(machine_, valid, is.estimates, inputs.driver.mark_touch, now_us, cycle.elapsed_s,
+  check_mark(machine_, valid, is.estimates, inputs.driver.touch, now_us, cycle.elapsed_s,
              is.last.mark, outputs.status);
   const bool active = decision.active() && !tried.tries;
   if (active) {

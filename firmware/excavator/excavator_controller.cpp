@@ -19,8 +19,9 @@ ExcavatorController::ExcavatorController(const ExcavatorSetup& setup)
 ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs now_us) {
   Memory& is = *memory_;
   const Cycle cycle = begin_cycle(is.cycle, memory_.unseal(), now_us);
-  const ExcavatorValid valid =
+  ExcavatorValid valid =
       read_inputs(machine_, sources_.book.with_steps(), inputs, cycle, now_us, is.last, is.inputs);
+  tell_site(sources_.book, is.last.site, valid);
   const Motion motion = next_motion(valid, cycle);
   const Followed followed =
       flow_limited(machine_, valid, is.estimates, motion, cycle.period_s, is.last);
@@ -33,8 +34,9 @@ ExcavatorOutputs ExcavatorController::step(const ExcavatorInputs& inputs, TimeUs
                                   followed, cycle, is.last, decision, is.output, outputs);
   end_cycle(decision, valid, is.cycle, outputs, outputs.status);
   tell_seen(machine_, is.inputs, is.estimates, outputs.status);
-  check_mark(machine_, valid, is.estimates.pose, inputs.driver.mark_touch, now_us, cycle.elapsed_s,
-             is.last.mark, outputs.status);
+  check_touches(machine_, sources_.book, valid, is.estimates.pose, inputs.driver.touch,
+                is.inputs.imus.link[kBodyImu].then.turning_radps, now_us, cycle.elapsed_s, is.last,
+                outputs.status);
   if (decision.active()) {
     tell_motion(machine_, is.inputs, motion, followed, valid, outputs.status);
   }

@@ -146,7 +146,7 @@ struct JointAngles {
 /// What Task::kAssist does about its design; the numbers are on the bus.
 enum class AssistState : std::uint8_t {
   kNone = 0,    ///< Another task, or there is no design.
-  kAway = 1,    ///< The edge is farther from it than assist.window.
+  kAway = 1,    ///< The edge is farther from it than assist.window, or where it lies is not known.
   kNear = 2,    ///< It will be held once the arm's lever moves.
   kHolds = 3,   ///< Boom and bucket follow the arm.
   kLetGo = 4,   ///< The boom's lever was raised, or the swing's moved: the arm's has to rest first.
@@ -164,6 +164,7 @@ struct ExcavatorStatus : MachineStatus {
   bool swings = false;
   TaskProgress progress;
   AssistState assist = AssistState::kNone;
+  std::uint8_t site = 0;  ///< SiteKnown (fences/site_frame.hpp); told in every mode.
   std::array<LearntEdges, kAxisCount> edges{};
   TipLoad tip_load;  ///< Told in every mode.
 };

@@ -6,6 +6,7 @@
 #include "firmware/drives/drive_watch.hpp"
 #include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
+#include "firmware/excavator/fences/site_frame.hpp"
 #include "firmware/excavator/kinematics/swing_kinematics.hpp"
 #include "firmware/safety/mark_check.hpp"
 #include "firmware/safety/stall_watch.hpp"
@@ -42,6 +43,7 @@ struct LastCycle {
   StallState stall;
   TubeState tube;
   MarkState mark;
+  SiteState site;
 };
 
 }  // namespace graben

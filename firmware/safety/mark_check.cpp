@@ -18,6 +18,9 @@ void next_rest(const Eigen::Vector3d& off_m, double elapsed_s, MarkState& state)
 }
 
 MarkTouch judged(const MarkSeen& seen, double rest_s) {
+  if (seen.kind == TouchKind::kMoved) {
+    return MarkTouch::kTaken;
+  }
   if (!seen.by_hand) {
     return MarkTouch::kNotByHand;
   }
@@ -29,9 +32,10 @@ MarkTouch judged(const MarkSeen& seen, double rest_s) {
 
 }  // namespace
 
-void read_touch(const Signal<std::uint8_t>& mark_touch, TimeUs now_us, MarkSeen& seen) {
-  seen.touched = Freshness(kTouchHolds_s, now_us).holds(mark_touch);
-  seen.number = mark_touch.value;
+void read_touch(const Signal<TouchWord>& touch, TimeUs now_us, MarkSeen& seen) {
+  seen.touched = Freshness(kTouchHolds_s, now_us).holds(touch);
+  seen.number = touch.value.number;
+  seen.kind = touch.value.kind;
 }
 
 bool is_place_known(const FaultSet& faults) {
@@ -57,30 +61,36 @@ void tell_mark(const MarkProfile& mark, const MarkState& state, bool moving, Com
   stop(stops, inputs);
 }
 
-void next_mark(const MarkProfile& mark, const MarkSeen& seen, double elapsed_s, MarkState& state) {
-  if (!mark.known()) {
-    return;
-  }
+bool next_mark(const MarkProfile& mark, const MarkSeen& seen, double elapsed_s, MarkState& state) {
   MarkTold& told = state.told;
-  told.tolerance_m = mark.tolerance_m;
-  told.age_s += elapsed_s;
-  if (told.result == MarkResult::kNoMark) {
-    told.result = MarkResult::kNever;
+  if (mark.known()) {
+    told.tolerance_m = mark.tolerance_m;
+    told.age_s += elapsed_s;
+    if (told.result == MarkResult::kNoMark) {
+      told.result = MarkResult::kNever;
+    }
   }
   next_rest(seen.off_m, elapsed_s, state);
   const bool is_new = seen.touched && !(state.heard && state.number == seen.number);
   state.heard = seen.touched;
   state.number = seen.number;
   if (!is_new) {
-    return;
+    return false;
   }
   told.touch = judged(seen, state.rest_s);
-  if (told.touch == MarkTouch::kTaken) {
+  if (told.touch != MarkTouch::kTaken) {
+    return false;
+  }
+  const bool of_mark = seen.kind == TouchKind::kMark;
+  if (!of_mark || !mark.known()) {
+    told.touch = MarkTouch::kNoPoint;
+  } else {
     told.off_m = seen.off_m;
     told.age_s = 0.0;
     told.count = static_cast<std::uint8_t>(std::min(told.count + 1, kMostMarkChecks));
     told.result = seen.off_m.norm() <= mark.tolerance_m ? MarkResult::kPassed : MarkResult::kMissed;
   }
+  return !of_mark;
 }
 
 }  // namespace graben

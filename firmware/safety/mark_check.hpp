@@ -19,6 +19,7 @@ struct MarkSeen {
   bool at_rest = false;     ///< Nothing drives it, as far as is known.
   bool known = false;       ///< Where the tool is.
   Eigen::Vector3d off_m = Eigen::Vector3d::Zero();  ///< Shown tool less mark: see MarkTold.
+  TouchKind kind = TouchKind::kMark;                ///< What else it is at.
 };
 
 /// State from cycle to cycle. Nothing of it outlives a restart: after one no check was made.
@@ -30,8 +31,8 @@ struct MarkState {
   MarkTold told;
 };
 
-/// A fresh touch of the mark, or none.
-void read_touch(const Signal<std::uint8_t>& mark_touch, TimeUs now_us, MarkSeen& seen);
+/// A fresh touch, or none.
+void read_touch(const Signal<TouchWord>& touch, TimeUs now_us, MarkSeen& seen);
 
 /// The tool's place can be relied on: no fault but the mark's own.
 [[nodiscard]] bool is_place_known(const FaultSet& faults);
@@ -43,7 +44,9 @@ void tell_mark(const MarkProfile& mark, const MarkState& state, bool moving, Com
 
 /// A cycle on. A touch counts once. It is refused, and `told.touch` says why, where the operator
 /// does not have the machine, where the tool has not been still for kMarkRest_s, or where its place
-/// is not known: then the last check stays what it was.
-void next_mark(const MarkProfile& mark, const MarkSeen& seen, double elapsed_s, MarkState& state);
+/// is not known: then the last check stays what it was. True for one that is taken and of no mark:
+/// `told.touch` says kNoPoint of it, for whoever does not know better. That the tracks have moved
+/// is taken whatever else is.
+bool next_mark(const MarkProfile& mark, const MarkSeen& seen, double elapsed_s, MarkState& state);
 
 }  // namespace graben

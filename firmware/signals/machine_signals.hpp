@@ -26,13 +26,28 @@ enum class Task : std::uint8_t {
   kAssist = 7,       ///< As kJog; near the design the arm by its axis, the edge on the design.
 };
 
+/// What the operator says that the tool is at; the numbers are on the bus.
+enum class TouchKind : std::uint8_t {
+  kMark = 0,       ///< The mark of the machine's profile.
+  kBenchmark = 1,  ///< The benchmark of the task files' site.
+  kHeading = 2,    ///< The site's second point, for its heading.
+  kSurface = 3,    ///< Any place of the design where it is made already: a check.
+  kMoved = 4,      ///< No point: the tracks have moved.
+};
+
+/// A touch; each has a number of its own.
+struct TouchWord {
+  std::uint8_t number = 0;
+  TouchKind kind = TouchKind::kMark;
+};
+
 struct OperatorInputs {
   Signal<bool> enable;  ///< Deadman: motion only while it is given.
   Signal<OperatorMode> mode;
   Signal<Task> task;
   Signal<double> speed_override_ratio;  ///< 0 .. 1 of the task's speed.
   Signal<std::uint8_t> task_number;     ///< Which of the task files kProgram means.
-  Signal<std::uint8_t> mark_touch;      ///< The tool is at the mark: the touch's number.
+  Signal<TouchWord> touch;              ///< The tool is at a point.
 };
 
 /// What somebody outside asks for; the numbers are on the bus.
@@ -97,13 +112,15 @@ struct MachineOutputs {
 /// What came of the last check of the tool at its mark; the numbers are on the bus.
 enum class MarkResult : std::uint8_t { kNoMark = 0, kNever = 1, kPassed = 2, kMissed = 3 };
 
-/// What became of the last touch of the mark; the numbers are on the bus.
+/// What became of the last touch; the numbers are on the bus.
 enum class MarkTouch : std::uint8_t {
   kNone = 0,
-  kTaken = 1,      ///< It is the last check.
-  kMoving = 2,     ///< Refused: the tool was not still.
-  kNotByHand = 3,  ///< Refused: the operator did not have the machine.
-  kNotKnown = 4,   ///< Refused: where the tool is was not known.
+  kTaken = 1,       ///< Of the mark: it is the last check.
+  kMoving = 2,      ///< Refused: the tool was not still.
+  kNotByHand = 3,   ///< Refused: the operator did not have the machine.
+  kNotKnown = 4,    ///< Refused: where the tool is was not known.
+  kNoPoint = 5,     ///< Refused: the machine has no such point, or another one comes first.
+  kContradict = 6,  ///< Refused: the tool is elsewhere than the site or its design has the point.
 };
 
 /// The last check of the tool at its mark.

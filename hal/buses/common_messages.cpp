@@ -46,7 +46,16 @@ static_assert(same_code(BusTouch::kTaken, MarkTouch::kTaken));
 static_assert(same_code(BusTouch::kMoving, MarkTouch::kMoving));
 static_assert(same_code(BusTouch::kNotByHand, MarkTouch::kNotByHand));
 static_assert(same_code(BusTouch::kNotKnown, MarkTouch::kNotKnown));
-static_assert(same_code(bus::EcuChecks::kTouch.raw_max, MarkTouch::kNotKnown));
+static_assert(same_code(BusTouch::kNoPoint, MarkTouch::kNoPoint));
+static_assert(same_code(BusTouch::kContradict, MarkTouch::kContradict));
+static_assert(same_code(bus::EcuChecks::kTouch.raw_max, MarkTouch::kContradict));
+using BusPoint = bus::TouchedPoint::Kind;
+static_assert(same_code(BusPoint::kMark, TouchKind::kMark));
+static_assert(same_code(BusPoint::kBenchmark, TouchKind::kBenchmark));
+static_assert(same_code(BusPoint::kHeading, TouchKind::kHeading));
+static_assert(same_code(BusPoint::kSurface, TouchKind::kSurface));
+static_assert(same_code(BusPoint::kMoved, TouchKind::kMoved));
+static_assert(same_code(bus::TouchedPoint::kKind.raw_max, TouchKind::kMoved));
 
 using BusLevel = bus::ExternalLimit::Level;
 static_assert(same_code(BusLevel::kFree, ExternalLevel::kFree));
@@ -94,6 +103,13 @@ void store_external(const bus::ExternalLimit& message, TimeUs now, Signal<Extern
   if (to.value.level == ExternalLevel::kSlow && !valid(message.speed_share_ratio)) {
     to.validity = std::min(to.validity, validity_of(message.speed_share_ratio.state));
   }
+}
+
+void store_touch(const bus::TouchedPoint& message, TimeUs now, Signal<TouchWord>& to) {
+  to = {
+      {static_cast<std::uint8_t>(message.number.value), static_cast<TouchKind>(message.kind.value)},
+      std::min(validity_of(message.number.state), validity_of(message.kind.state)),
+      now};
 }
 
 void store_identity(const bus::MachineIdentity& message, TimeUs now, PartnerIdentity& to) {

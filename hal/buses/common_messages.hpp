@@ -23,6 +23,7 @@ using CommonReceived =
 void store_operator(const dbc::common::OperatorCommand& message, TimeUs now, OperatorInputs& to);
 void store_external(const dbc::common::ExternalLimit& message, TimeUs now,
                     Signal<ExternalWord>& to);
+void store_touch(const dbc::common::TouchedPoint& message, TimeUs now, Signal<TouchWord>& to);
 void store_identity(const dbc::common::MachineIdentity& message, TimeUs now, PartnerIdentity& to);
 
 /// Base of a kind's Store; a kind adds `store` of its own messages. `own` are its tasks: an
@@ -52,7 +53,7 @@ struct CommonStore {
     put(to.echoes.driver, message.echo, now);
   }
   static void store(const dbc::common::TouchedPoint& message, TimeUs now, To& to) {
-    put(to.inputs.driver.mark_touch, message.number, now);
+    store_touch(message, now, to.inputs.driver.touch);
   }
   static void store(const dbc::common::ExternalLimit& message, TimeUs now, To& to) {
     store_external(message, now, to.inputs.external);

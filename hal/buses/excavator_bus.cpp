@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "can_dbc/generated/excavator_dbc.hpp"
+#include "firmware/excavator/fences/site_frame.hpp"
 #include "hal/buses/common_messages.hpp"
 #include "hal/buses/may_move.hpp"
 
@@ -26,6 +27,13 @@ static_assert(same_code(BusStep::kReturnToDig, StepKind::kReturnToDig));
 static_assert(same_code(BusStep::kDone, StepKind::kDone));
 static_assert(same_code(BusStep::kWait, StepKind::kWait));
 static_assert(same_code(bus::TaskStatus::kStepKind.raw_max, StepKind::kWait));
+
+using BusFrame = bus::EcuMotion::Frame;
+static_assert(same_code(BusFrame::kNone, SiteKnown::kNone));
+static_assert(same_code(BusFrame::kUnknown, SiteKnown::kUnknown));
+static_assert(same_code(BusFrame::kBenchmark, SiteKnown::kBenchmark));
+static_assert(same_code(BusFrame::kKnown, SiteKnown::kKnown));
+static_assert(same_code(bus::EcuMotion::kFrame.raw_max, SiteKnown::kKnown));
 
 using BusAssist = bus::EcuMotion::Assist;
 static_assert(same_code(BusAssist::kNone, AssistState::kNone));
@@ -191,6 +199,7 @@ bus::EcuMotion ecu_motion(const ExcavatorOutputs& outputs, const EcuDiagnosis&) 
   message.boom_wanted_velocity_mps = physical(status.wanted_velocity_mps[0]);
   message.arm_wanted_velocity_mps = physical(status.wanted_velocity_mps[1]);
   message.bucket_wanted_velocity_mps = physical(status.wanted_velocity_mps[2]);
+  message.frame = coded<bus::EcuMotion::Frame>(status.site);
   message.assist = {static_cast<bus::EcuMotion::Assist>(status.assist), dbc::RawState::kValid};
   return message;
 }

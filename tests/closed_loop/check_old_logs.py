@@ -12,11 +12,11 @@ import sys
 import tempfile
 
 LOGS = pathlib.Path(__file__).parent.parent / "old_logs"
-EXCAVATORS = LOGS / "excavator_10.log", LOGS / "excavator_11.log"
-DOZERS = LOGS / "dozer_7.log", LOGS / "dozer_8.log", LOGS / "dozer_9.log"
+EXCAVATORS = LOGS / "excavator_10.log", LOGS / "excavator_11.log", LOGS / "excavator_12.log"
+DOZERS = LOGS / "dozer_7.log", LOGS / "dozer_8.log", LOGS / "dozer_9.log", LOGS / "dozer_10.log"
 EXCAVATOR, DOZER = EXCAVATORS[0], DOZERS[0]
 # The oldest that is read and this version.
-EXCAVATOR_READS, DOZER_READS = (10, 12), (7, 10)
+EXCAVATOR_READS, DOZER_READS = (10, 13), (7, 11)
 
 
 def call(folder, *arguments, status=0):
@@ -67,9 +67,9 @@ with tempfile.TemporaryDirectory() as name:
     # A fraction of a second is no motion to identify by; that it is of the version before is no reason.
     PROFILE = ("--profile", "excavator_12t", "--out", "new.toml")
     assert "no 5 s in one piece are in it" in call(here, "identify", "--log", EXCAVATOR, *PROFILE, status=1)
-    for version in (9, 13):
+    for version in (9, 14):
         other = with_version(here, EXCAVATOR, version)
         refused(here, other, version, EXCAVATOR_READS)
         said = call(here, "identify", "--log", other, *PROFILE, status=1)
-        assert f"speaks version {version} of the DBC, this tool reads versions 10 to 12" in said, said
+        assert f"speaks version {version} of the DBC, this tool reads versions 10 to 13" in said, said
     refused(here, with_version(here, DOZER, 6), 6, DOZER_READS)

@@ -106,6 +106,8 @@ template <class Kind>
 [[nodiscard]] Rows<Excavator> tilt_rows(const Excavator&);
 [[nodiscard]] Rows<Excavator> mark_rows(const Excavator&);  ///< 86
 [[nodiscard]] Rows<Dozer> mark_rows(const Dozer&);
+[[nodiscard]] Rows<Excavator> site_rows(const Excavator&);  ///< 94
+[[nodiscard]] Rows<Dozer> site_rows(const Dozer&);
 [[nodiscard]] Rows<Excavator> engine_rows(const Excavator&);  ///< 85, 87, 88
 [[nodiscard]] Rows<Dozer> engine_rows(const Dozer&);
 [[nodiscard]] Rows<Excavator> stroke_rows();  ///< 55, 82 - 84: a dozer has one stroke.

@@ -45,8 +45,8 @@ Rows<Kind> all_rows() {
        {silence_rows<Kind>(), message_rows<Kind>(), format_rows<Kind>(), bus_rows<Kind>(),
         machine_rows<Kind>(), process_rows<Kind>(), conduct_rows<Kind>(), guard_rows<Kind>(),
         link_rows<Kind>(), external_rows<Kind>(), motion_rows<Kind>(), direction_rows(Kind{}),
-        tube_rows(Kind{}), hand_rows(Kind{}), mark_rows(Kind{}), engine_rows(Kind{}),
-        own_rows(Kind{})}) {
+        tube_rows(Kind{}), hand_rows(Kind{}), mark_rows(Kind{}), site_rows(Kind{}),
+        engine_rows(Kind{}), own_rows(Kind{})}) {
     rows.insert(rows.end(), some.begin(), some.end());
   }
   std::sort(rows.begin(), rows.end(),

@@ -3,7 +3,8 @@
 /// Logs of earlier versions of the DBC. A kind's own version is read, and those from its oldest on:
 /// before `five_bits` EcuStatus had four bits for Mode and four for LimitKind; every other frame is
 /// the same. Later versions only have messages more: 12 second sensors', of a dozer 9 none, 10
-/// those of its commissioning. A log of each is kept in tests/old_logs; the page's rule is in its
+/// those of its commissioning; or more in what was left free: 13, a dozer's 11, what of a site is
+/// touched. A log of each is kept in tests/old_logs; the page's rule is in its
 /// model/dbc.ts.
 
 #include <cstdint>
@@ -29,7 +30,7 @@ inline constexpr DbcVersions kDozerVersions{dbc::dozer::kDbcVersion, 7, 8};
 [[nodiscard]] constexpr bool is_read(std::uint32_t version, const DbcVersions& of) {
   return version >= of.oldest && version <= of.own;
 }
-/// "this tool reads versions 10 to 12"
+/// "this tool reads versions 10 to 13"
 [[nodiscard]] std::string read_versions(const DbcVersions& of);
 
 /// As read_candump(), each frame as this version has it. The version is what the controller says

@@ -34,8 +34,8 @@ void watch_stall(const DozerModel& machine, const DozerValid& valid, PassPhase p
 }  // namespace
 
 void check_mark(const DozerModel& machine, const DozerValid& valid, const DozerEstimates& estimates,
-                const Signal<std::uint8_t>& touch, TimeUs now_us, double elapsed_s,
-                MarkState& state, DozerStatus& status) {
+                const Signal<TouchWord>& touch, TimeUs now_us, double elapsed_s, MarkState& state,
+                DozerStatus& status) {
   const MarkProfile& mark = machine.profile.mark;
   if (!mark.known()) {
     return;

@@ -8,8 +8,8 @@ namespace graben {
 
 /// The edge at the profile's mark: looked at where the operator says so, and told.
 void check_mark(const DozerModel& machine, const DozerValid& valid, const DozerEstimates& estimates,
-                const Signal<std::uint8_t>& touch, TimeUs now_us, double elapsed_s,
-                MarkState& state, DozerStatus& status);
+                const Signal<TouchWord>& touch, TimeUs now_us, double elapsed_s, MarkState& state,
+                DozerStatus& status);
 
 /// What is told of a motion that is followed.
 void tell_motion(const DozerModel& machine, const PassState& pass, const BladeMotion& motion,

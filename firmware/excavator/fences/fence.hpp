@@ -54,6 +54,29 @@ struct FenceSet {
   int count = 0;
 };
 
+/// Where the machine stands in the frame in which its task's design is given: turned to the left
+/// against that by `turn_rad`, with its ground frame's origin at `origin_m` there.
+struct FrameShift {
+  /// A direction of the machine's swing is so much farther to the left than in that frame.
+  double turn_rad = 0.0;
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
+};
+
+/// Fences that hold now; set and shift have to outlive it.
+struct FenceView {
+  FenceView() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a set is one as it is.
+  FenceView(const FenceSet& fences) : set(&fences), count(fences.count) {}
+
+  const FenceSet* set = nullptr;  ///< Null: there are none.
+  int count = 0;
+  const FrameShift* shift = nullptr;  ///< Of the design; null: it lies as it is given.
+
+  [[nodiscard]] const Fence& at(int number) const {
+    return set->fence[static_cast<unsigned>(number)];
+  }
+};
+
 /// Something of the machine before a fence.
 struct FenceGap {
   double distance_m = 0.0;   ///< Negative: beyond it.

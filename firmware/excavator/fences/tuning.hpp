@@ -36,4 +36,16 @@ inline constexpr double kNoSurface_m = 1e3;
 /// tried]
 inline constexpr double kSurfaceTurnOff = 1e-6;
 
+// Where the machine stands on its site (site_frame.cpp)
+
+/// Distance from where the site or its design has a point up to which a touch agrees. [m; chosen:
+/// as site.bound's own value; not tried]
+inline constexpr double kSiteBound_m = 0.03;
+/// Time in which a turn of the tracks is forgotten. [s; chosen: a gyro's zero off by 0.3 deg/s then
+/// makes a turn of 3 deg; not tried]
+inline constexpr double kTracksForget_s = 10.0;
+/// Turn of the tracks from which on they have moved: 5 deg. [rad; chosen: above that, and above a
+/// gyro's scale off by 1 % over half a turn of the swing; not tried]
+inline constexpr double kTracksTurned_rad = 0.09;
+
 }  // namespace graben

@@ -31,7 +31,7 @@ void hold_at_fences(const ExcavatorModel& machine, const InputState& inputs,
           ? swing_coast_m(inputs.accepted[kSwing].speed_mps, last.commands.asked_mps[kSwing])
           : 0.0;
   const MotionCap cap = motion_cap(machine.profile, machine.drives, machine.kinematics,
-                                   *motion.fences, strokes_then_m(machine.drives, estimates.servo),
+                                   motion.fences, strokes_then_m(machine.drives, estimates.servo),
                                    motion.corrected_mps, coast_m, zero_m);
   motion.cap = static_cast<const VelocityCap&>(cap);
   motion.wanted_mps = motion.wanted_mps.cwiseProduct(cap.share);
@@ -71,7 +71,7 @@ void hold_back(const ExcavatorModel& machine, const ExcavatorValid& valid, const
                const EstimationState& estimates, double period_s, const LastCycle& last,
                Motion& motion, LimitState& state) {
   ease_blocked(machine, inputs.watch.drives.blocked, motion);
-  if (motion.fences == nullptr) {
+  if (motion.fences.set == nullptr) {
     slow_at_ends(machine.drives, valid.drive, span_of(motion.corrected_mps), motion.cap);
   } else {
     const bool by_lever = is_by_lever(valid.task);

@@ -29,18 +29,18 @@ struct Beyond {
 class FencedMachine {
  public:
   FencedMachine(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                const FenceSet& fences, const DriveVector& at, double zero_m)
+                const FenceView& fences, const DriveVector& at, double zero_m)
       : profile_(profile), kinematics_(kinematics), fences_(fences), at_(at), zero_m_(zero_m) {}
 
   /// False: it can't be there.
   [[nodiscard]] bool slow(const DriveVector& velocity, VelocityCap& cap) {
-    const MachineMotion motion =
-        machine_motion(kinematics_, at_, velocity, unsure_drives(profile_));
+    MachineMotion motion = machine_motion(kinematics_, at_, velocity, unsure_drives(profile_));
     if (motion.status != ReachStatus::kOk) {
       return false;
     }
     const double far_m = nothing_to_slow_m(motion);
     for (int i = 0; i < fences_.count; ++i) {
+      look_from_site(i, velocity, motion);
       slow_at(i, motion, far_m, cap);
     }
     return true;
@@ -56,7 +56,7 @@ class FencedMachine {
     for (int drive = 0; drive < kDriveCount; ++drive) {
       DriveVector alone = DriveVector::Zero();
       alone[drive] = velocity[drive];
-      free[drive] = leads_further(machine_motion(kinematics_, at_, alone)) ? 0.0 : 1.0;
+      free[drive] = leads_further(alone) ? 0.0 : 1.0;
     }
     return free;
   }
@@ -97,10 +97,30 @@ class FencedMachine {
     }
   }
 
-  [[nodiscard]] bool leads_further(const MachineMotion& motion) const {
+  /// A design that lies elsewhere than it is given is the last of the fences: from it on the
+  /// machine is seen in its frame.
+  void look_from_site(int number, const DriveVector& velocity, MachineMotion& motion) const {
+    if (fences_.shift == nullptr || !fence_at(number).is_design()) {
+      return;
+    }
+    DriveVector at = at_;
+    at[kSwing] -= fences_.shift->turn_rad;
+    motion = machine_motion(kinematics_, at, velocity, unsure_drives(profile_));
+    for (PointMotion& point : motion.point) {
+      point.position_m += fences_.shift->origin_m;
+    }
+  }
+
+  [[nodiscard]] bool leads_further(const DriveVector& velocity) const {
+    MachineMotion motion = machine_motion(kinematics_, at_, velocity);
     bool further = false;
+    int seen = -1;
     for (int i = 0; i < beyond_count_; ++i) {
       const Beyond& what = beyond_[static_cast<unsigned>(i)];
+      if (what.fence != seen) {
+        seen = what.fence;
+        look_from_site(seen, velocity, motion);
+      }
       const FenceGap gap = fence_gap(fence_at(what.fence), body(), motion, what.gap,
                                      std::numeric_limits<double>::infinity());
       further = further || gap.closing_mps > kStandsStill;
@@ -121,14 +141,12 @@ class FencedMachine {
                     0.5 * fastest_m2ps2 / profile_.line.acceleration_mps2);
   }
 
-  [[nodiscard]] const Fence& fence_at(int number) const {
-    return fences_.fence[static_cast<unsigned>(number)];
-  }
+  [[nodiscard]] const Fence& fence_at(int number) const { return fences_.at(number); }
   [[nodiscard]] const ExcavatorBody& body() const { return kinematics_.geometry().body; }
 
   const ExcavatorProfile& profile_;
   const SwingKinematics& kinematics_;
-  const FenceSet& fences_;
+  const FenceView& fences_;
   DriveVector at_;
   double zero_m_;
   std::array<Beyond, kBeyondMost> beyond_;
@@ -138,7 +156,7 @@ class FencedMachine {
 }  // namespace
 
 MotionCap motion_cap(const ExcavatorProfile& profile, DriveRows drives,
-                     const SwingKinematics& kinematics, const FenceSet& fences,
+                     const SwingKinematics& kinematics, const FenceView& fences,
                      const DriveVector& then_m, const DriveVector& velocity_mps, double coast_m,
                      double zero_m) {
   const auto held = [] {

@@ -24,7 +24,7 @@ struct MotionCap : VelocityCap {
 /// fences it is taken to be there already. `zero_m`: heights over a design are seen too high by so
 /// much.
 [[nodiscard]] MotionCap motion_cap(const ExcavatorProfile& profile, DriveRows drives,
-                                   const SwingKinematics& kinematics, const FenceSet& fences,
+                                   const SwingKinematics& kinematics, const FenceView& fences,
                                    const DriveVector& then_m, const DriveVector& velocity_mps,
                                    double coast_m = 0.0, double zero_m = 0.0);
 

@@ -102,15 +102,16 @@ void follow(const Known& of, const TaskProgram& program, const MotionMemory& sta
                  swing_of(motion.corrected_mps) +
                      swing_lead_mps(profile, swing_mps, of.last.swing_wanted_mps, of.period_s) +
                      swing_damping_mps(profile, of.estimates.swing_push));
-  motion.fences = &program.fences;
+  motion.fences = program.fences;
   motion.zero_m = state.task.state.dug.zero_m;
   motion.path_error_m = motion.task.path_error_m;
   motion.off_m = motion.task.off_m;
 }
 
-/// The chosen program's design, and by how much the last check at the mark has shown heights over
-/// it too high.
-void look_at_design(const Known& of, const HandState& hand, HandAsk& ask, Motion& motion) {
+/// The chosen program's design where it lies by now, and by how much the last check at the mark has
+/// shown heights over it too high.
+void look_at_design(const Known& of, const HandState& hand, bool lost, HandAsk& ask,
+                    Motion& motion) {
   const ExcavatorProfile& profile = of.machine.profile;
   const Eigen::Vector3d& off_m = of.last.mark.told.off_m;
   const Eigen::Vector2d shown_off_m(off_m.x(), off_m.z());
@@ -122,7 +123,8 @@ void look_at_design(const Known& of, const HandState& hand, HandAsk& ask, Motion
   // Extending, the arm draws in.
   const double arm = ask.lever_ratio[kArm];
   view.way = arm > 0.0 ? -1.0 : arm < 0.0 ? 1.0 : 0.0;
-  ask.design = assist_design(profile, *motion.fences, swing_rad, shown_off_m, view);
+  ask.design = assist_design(profile, motion.fences, swing_rad, shown_off_m, view);
+  ask.design.lost = lost;
   motion.zero_m = ask.design.now.up.dot(shown_off_m);
 }
 
@@ -131,12 +133,11 @@ void steer(const Known& of, const HandState& hand, Motion& motion) {
   const ExcavatorValid& valid = of.valid;
   const DriveRows& drives = of.machine.drives;
   // Fences are those of the task that is chosen, or of the first.
-  const TaskBook& book = of.sources.book;
-  const bool chosen = valid.task_number >= 0 && valid.task_number < book.count;
-  motion.fences = &book.program[chosen ? static_cast<unsigned>(valid.task_number) : 0U].fences;
+  const FenceSet& fences = of.sources.book.chosen(valid.task_number).fences;
+  motion.fences = placed(fences, of.last.site);
   HandAsk ask = hand_ask(valid);
   if (valid.task == Task::kAssist) {
-    look_at_design(of, hand, ask, motion);
+    look_at_design(of, hand, has_design(fences) && of.last.site.is_lost(), ask, motion);
   }
   const double lambda = of.last.flow.lambda;
   motion.hand = want_by_hand(of.machine.profile, drives, of.machine.kinematics.planar(),

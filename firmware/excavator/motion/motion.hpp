@@ -31,8 +31,8 @@ struct Motion {
   DriveVector corrected_mps = DriveVector::Zero();  ///< With the servos' corrections.
   DriveVector towards_mps = DriveVector::Zero();    ///< The same, not eased (blocked.hpp).
   VelocityCap cap;
-  const FenceSet* fences = nullptr;  ///< That hold it; null: only the cylinders' ends do.
-  double zero_m = 0.0;               ///< Sensors see heights too high by so much, see Dug.
+  FenceView fences;     ///< That hold it; without a set only the cylinders' ends do.
+  double zero_m = 0.0;  ///< Sensors see heights too high by so much, see Dug.
   double path_error_m = 0.0;
   double off_m = 0.0;  ///< What the tube is laid around.
   TaskWant task;       ///< Of a program.

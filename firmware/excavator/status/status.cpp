@@ -16,14 +16,12 @@ bool has_tube(Task task) {
          task == Task::kAssist;
 }
 
-/// Shown teeth less mark, as the links look: outwards, to the left, up.
-Eigen::Vector3d off_mark_m(const ExcavatorModel& machine, const TipPose& tip, double swing_rad) {
-  const Eigen::Vector3d& mark_m = machine.profile.mark.place_m;
-  const Eigen::Vector2d& foot_m = machine.profile.geometry.boom_foot_m;
-  const double cosine = std::cos(swing_rad);
-  const double sine = std::sin(swing_rad);
-  return {foot_m.x() + tip.x_m - mark_m.x() * cosine - mark_m.y() * sine,
-          mark_m.x() * sine - mark_m.y() * cosine, foot_m.y() + tip.y_m - mark_m.z()};
+/// Teeth less a place of the ground frame, as the links look: outwards, to the left, up.
+Eigen::Vector3d off_place_m(const TeethPlace& teeth, const Eigen::Vector3d& place_m) {
+  const double cosine = std::cos(teeth.swing_rad);
+  const double sine = std::sin(teeth.swing_rad);
+  return {teeth.out_m - place_m.x() * cosine - place_m.y() * sine,
+          place_m.x() * sine - place_m.y() * cosine, teeth.up_m - place_m.z()};
 }
 
 }  // namespace
@@ -41,13 +39,11 @@ void tell_seen(const ExcavatorModel& machine, const InputState& inputs,
   status.joints = inputs.joints;
 }
 
-void check_mark(const ExcavatorModel& machine, const ExcavatorValid& valid,
-                const KinematicState& pose, const Signal<std::uint8_t>& touch, TimeUs now_us,
-                double elapsed_s, MarkState& state, ExcavatorStatus& status) {
+void check_touches(const ExcavatorModel& machine, const TaskBook& book, const ExcavatorValid& valid,
+                   const KinematicState& pose, const Signal<TouchWord>& touch, double turning_radps,
+                   TimeUs now_us, double elapsed_s, LastCycle& last, ExcavatorStatus& status) {
   const ExcavatorProfile& profile = machine.profile;
-  if (!profile.mark.known()) {
-    return;
-  }
+  SiteState& site = last.site;
   MarkSeen seen;
   read_touch(touch, now_us, seen);
   seen.by_hand = valid.by_hand();
@@ -55,9 +51,41 @@ void check_mark(const ExcavatorModel& machine, const ExcavatorValid& valid,
   seen.known = is_place_known(valid.faults) && pose.status == ReachStatus::kOk;
   const double swing_rad =
       profile.has_swing() ? valid.drive[kSwing].stroke_m / profile.swing.lever_m : 0.0;
-  seen.off_m = off_mark_m(machine, pose.tip, swing_rad);
-  next_mark(profile.mark, seen, elapsed_s, state);
-  status.mark = state.told;
+  if (site.known == SiteKnown::kNone) {
+    site.known = book.site.by_touch ? SiteKnown::kUnknown : SiteKnown::kKnown;
+    site.swing_rad = swing_rad;
+  }
+  if (profile.imu.has_body() && profile.has_swing()) {
+    watch_tracks(turning_radps, swing_rad, elapsed_s, site);
+  }
+  const Eigen::Vector2d& foot_m = profile.geometry.boom_foot_m;
+  TeethPlace teeth = {foot_m.x() + pose.tip.x_m, swing_rad, foot_m.y() + pose.tip.y_m};
+  seen.off_m = off_place_m(
+      teeth, profile.mark.known() ? profile.mark.place_m : Eigen::Vector3d(kNoMark_m, 0.0, 0.0));
+  const FenceSet& fences = book.chosen(valid.task_number).fences;
+  MarkTold& told = last.mark.told;
+  if (next_mark(profile.mark, seen, elapsed_s, last.mark)) {
+    // Without what that check has shown them off.
+    teeth.out_m -= told.off_m.x();
+    teeth.up_m -= told.off_m.z();
+    told.touch = next_site(book.site, fences, seen.kind, teeth, site);
+  }
+  status.mark = told;
+  status.site = static_cast<std::uint8_t>(has_design(fences) ? site.known : SiteKnown::kNone);
+}
+
+void tell_site(const TaskBook& book, const SiteState& site, ExcavatorValid& valid) {
+  if (!has_design(book.chosen(valid.task_number).fences)) {
+    return;
+  }
+  if (site.is_lost()) {
+    warn(Fault::kFrameUnknown, valid);
+  }
+  if (valid.task == Task::kProgram && (site.is_lost() || site.placed)) {
+    FaultSet faults;
+    faults.add(Fault::kFrameUnknown);
+    stop(faults, valid);
+  }
 }
 
 void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const Motion& motion,

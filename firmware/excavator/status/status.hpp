@@ -10,10 +10,15 @@ namespace graben {
 void tell_seen(const ExcavatorModel& machine, const InputState& inputs,
                const EstimationState& estimates, ExcavatorStatus& status);
 
-/// The teeth at the profile's mark: looked at where the operator says so, and told.
-void check_mark(const ExcavatorModel& machine, const ExcavatorValid& valid,
-                const KinematicState& pose, const Signal<std::uint8_t>& touch, TimeUs now_us,
-                double elapsed_s, MarkState& state, ExcavatorStatus& status);
+/// The teeth at the profile's mark or at a point of the site: looked at where the operator says so,
+/// and told. `turning_radps`: of the platform, by its gyro, where it swings and has one.
+void check_touches(const ExcavatorModel& machine, const TaskBook& book, const ExcavatorValid& valid,
+                   const KinematicState& pose, const Signal<TouchWord>& touch, double turning_radps,
+                   TimeUs now_us, double elapsed_s, LastCycle& last, ExcavatorStatus& status);
+
+/// Warns of kFrameUnknown where the chosen task has a design that is not known to lie anywhere. A
+/// program with a design was planned where the task file has it: elsewhere it must not run.
+void tell_site(const TaskBook& book, const SiteState& site, ExcavatorValid& valid);
 
 /// What is told of a motion that is followed.
 void tell_motion(const ExcavatorModel& machine, const InputState& inputs, const Motion& motion,

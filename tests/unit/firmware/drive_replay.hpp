@@ -106,7 +106,7 @@ struct ReplayMachine {
 
 /// The cap for strokes m and swing rad, and their velocities.
 inline MotionCap motion_cap(const ExcavatorProfile& profile, const SwingKinematics& kinematics,
-                            const FenceSet& fences, const DriveVector& then,
+                            const FenceView& fences, const DriveVector& then,
                             const DriveVector& velocity) {
   const ExcavatorBank bank = excavator_bank(profile);
   return graben::motion_cap(profile, bank.rows(), kinematics, fences, travel_of(profile, then),

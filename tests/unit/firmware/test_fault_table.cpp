@@ -81,6 +81,8 @@ const Promise kPromises[] = {
     {57, Fault::kExternalSilent, 'N', 9, ArmBlock::kExternal},
     // A spool that is later than told.
     {58, Fault::kSpoolLate, 'N', 10, ArmBlock::kValve},
+    // A design whose place is not known.
+    {59, Fault::kFrameUnknown, 'W', 31, ArmBlock::kSite},
     // The dozer's own.
     {31, Fault::kPoseMissing, 'N', 9, ArmBlock::kPose},
     {32, Fault::kPoseImplausible, 'N', 2, ArmBlock::kPose},

@@ -48,7 +48,7 @@ struct Touching {
     inputs.axis[kBoom].stroke_m.value += boom_off_m;
     inputs.swing.angle_rad.value = kSwing_rad + swing_off_rad;
     if (touched) {
-      inputs.driver.mark_touch = fresh(number, now_us);
+      inputs.driver.touch = fresh(TouchWord{number, kind}, now_us);
     }
     now_us += 10 * kMillisecondUs;
     outputs = controller.step(inputs, now_us - 10 * kMillisecondUs);
@@ -66,6 +66,7 @@ struct Touching {
   double boom_off_m = 0.0;
   double swing_off_rad = 0.0;
   std::uint8_t number = 0;
+  TouchKind kind = TouchKind::kMark;
   TimeUs now_us = kSecondUs;
   ExcavatorOutputs outputs;
 };
@@ -162,7 +163,7 @@ MarkTold dozer_touches(const Eigen::Vector3d& mark_m, double height_off_m) {
       track.speed_mps.value = 0.0;
     }
     if (i > 65) {
-      inputs.driver.mark_touch = fresh(std::uint8_t{1}, now_us);
+      inputs.driver.touch = fresh(TouchWord{1, TouchKind::kMark}, now_us);
     }
     outputs = controller.step(inputs, now_us);
   }

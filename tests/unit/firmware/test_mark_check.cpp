@@ -46,7 +46,7 @@ TEST(without_a_mark_there_is_nothing_to_say, Marked machine) {
   machine.seen.off_m = {1.0, 0.0, 0.0};
   const MarkTold& told = machine.rest_and_touch(1);
   assert_int_equal(told.result, MarkResult::kNoMark);
-  assert_int_equal(told.touch, MarkTouch::kNone);
+  assert_int_equal(told.touch, MarkTouch::kNoPoint);
   assert_near(told.age_s, 0.0, 0.0);
   assert_true(machine.told().faults.empty() && machine.told().warned.empty());
 }
@@ -183,9 +183,10 @@ TEST(a_touch_is_said_for_three_of_its_periods) {
   const TimeUs now_us = 5 * kSecondUs;
   for (const TimeUs age_us : {TimeUs{0}, 300 * kMillisecondUs, 300 * kMillisecondUs + 1}) {
     MarkSeen seen;
-    read_touch({9, Validity::kValid, now_us - age_us}, now_us, seen);
+    read_touch({{9, TouchKind::kSurface}, Validity::kValid, now_us - age_us}, now_us, seen);
     assert_int_equal(seen.touched, age_us <= 300 * kMillisecondUs);
     assert_int_equal(seen.number, 9);
+    assert_int_equal(seen.kind, TouchKind::kSurface);
   }
   MarkSeen seen;
   read_touch({}, now_us, seen);
@@ -200,4 +201,35 @@ TEST(any_other_fault_makes_the_place_unknown) {
   assert_true(is_place_known(faults));
   faults.add(Fault::kStrokeMissing);
   assert_false(is_place_known(faults));
+}
+
+/// Of a point of the site: whoever knows it is asked, the mark's check stays what it was.
+TEST(another_point_is_no_check, Marked machine) {
+  machine.rest_and_touch(1);
+  machine.seen.kind = TouchKind::kHeading;
+  machine.seen.off_m = {0.0, 0.0, 1.0};
+  machine.run(kRestCycles + 1);
+  machine.seen.touched = true;
+  machine.seen.number = 2;
+  assert_true(next_mark(machine.mark, machine.seen, kCycle_s, machine.state));
+  assert_false(next_mark(machine.mark, machine.seen, kCycle_s, machine.state));
+  assert_int_equal(machine.state.told.touch, MarkTouch::kNoPoint);
+  assert_int_equal(machine.state.told.result, MarkResult::kPassed);
+  assert_int_equal(machine.state.told.count, 1);
+  machine.seen.kind = TouchKind::kMark;
+  machine.seen.number = 3;
+  assert_false(next_mark(machine.mark, machine.seen, kCycle_s, machine.state));
+  assert_int_equal(machine.state.told.result, MarkResult::kMissed);
+  // Refused ones are nobody's.
+  machine.seen.kind = TouchKind::kBenchmark;
+  machine.seen.by_hand = false;
+  machine.seen.number = 4;
+  assert_false(next_mark(machine.mark, machine.seen, kCycle_s, machine.state));
+  assert_int_equal(machine.state.told.touch, MarkTouch::kNotByHand);
+  // Tracks that have moved need neither hand nor rest.
+  machine.seen.kind = TouchKind::kMoved;
+  machine.seen.known = false;
+  machine.seen.at_rest = false;
+  machine.seen.number = 5;
+  assert_true(next_mark(machine.mark, machine.seen, kCycle_s, machine.state));
 }

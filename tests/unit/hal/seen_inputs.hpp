@@ -26,7 +26,11 @@ void see_all(Seen& seen, const Signal<std::array<double, count>>& signal) {
 
 inline void see_driver(Seen& seen, const OperatorInputs& driver) {
   see(seen, driver.enable, driver.mode, driver.task, driver.speed_override_ratio,
-      driver.task_number, driver.mark_touch);
+      driver.task_number);
+  for (const int each :
+       {int{driver.touch.value.number}, static_cast<int>(driver.touch.value.kind)}) {
+    seen.emplace_back(each, driver.touch.validity, driver.touch.stamp_us);
+  }
 }
 
 inline Seen seen_in(const ExcavatorInputs& in) {

@@ -222,3 +222,19 @@ TEST(another_kinds_task_is_out_of_range, ExcavatorReceiver receiver) {
   assert_int_equal(receiver.inputs().driver.task.value, bus::OperatorCommand::kTask.raw_max);
   assert_int_equal(receiver.link(bus::OperatorCommand::kId).out_of_range, 1);
 }
+
+TEST(a_touch_comes_with_its_point, ExcavatorReceiver receiver) {
+  TimeUs now = synchronise<bus::TouchedPoint>(receiver);
+  const auto& touch = receiver.inputs().driver.touch;
+  const auto hear = [&](std::uint32_t kind, std::uint8_t counter) {
+    now += bus::TouchedPoint::kCycleTimeMs * kMillisecondUs;
+    receiver.accept(frame_with<bus::TouchedPoint>(bus::TouchedPoint::kKind, kind, counter), now);
+  };
+  hear(3, 3);
+  assert_int_equal(touch.validity, Validity::kValid);
+  assert_int_equal(touch.value.kind, TouchKind::kSurface);
+  hear(5, 4);
+  assert_int_equal(receiver.link(bus::TouchedPoint::kId).out_of_range, 1);
+  hear(15, 5);
+  assert_int_equal(touch.validity, Validity::kNotAvailable);
+}

@@ -237,12 +237,14 @@ TEST(motion_and_hydraulics, ExcavatorSender sender) {
   out.pump_pressure_pa = {20e6, 30e6};
   out.path_error_m = 0.05;
   out.assist = AssistState::kLetGo;
+  out.site = 2;
   sender.cycles(2);
   const auto motion = sender.sent<bus::EcuMotion>();
   assert_near(motion.boom_wanted_velocity_mps.value, 0.1, 1e-12);
   assert_near(motion.arm_wanted_velocity_mps.value, -0.2, 1e-12);
   assert_near(motion.bucket_wanted_velocity_mps.value, 0.3, 1e-12);
   assert_true(motion.assist.value == bus::EcuMotion::Assist::kLetGo);
+  assert_true(motion.frame.value == bus::EcuMotion::Frame::kBenchmark);
   const auto hydraulics = sender.sent<bus::EcuHydraulics>();
   assert_near(hydraulics.pump1_expected_pressure_pa.value, 20e6, 1e-3);
   assert_near(hydraulics.pump2_expected_pressure_pa.value, 30e6, 1e-3);

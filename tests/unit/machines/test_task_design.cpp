@@ -253,3 +253,84 @@ TEST(a_dig_keeps_over_a_surface) {
   assert_says(errors_of(at("0.1")), "the design surface");
   assert_true(errors_of(at("-0.2")).empty());
 }
+
+constexpr const char* kTouchedSite =
+    "[site]\nbenchmark = [4321.5, 8765.2, 54.3]\nsecond = [4325.5, 8765.2, 54.5]\n"
+    "[design]\nthrough = [4321.5, 8766.2, 54.1]\nslope = 0.1\n";
+
+/// Points that are touched at run time: the design as if the machine stood on the benchmark.
+TEST(a_site_that_is_touched_at_run_time) {
+  const machines::TaskFile task = task_of(kTouchedSite);
+  assert_true(task.site && task.site->points.by_touch);
+  assert_true(task.site->points.can_touch);
+  assert_near(task.site->points.benchmark_m.norm(), 0.0, 1e-9);
+  assert_near((task.site->points.second_m - Eigen::Vector3d(4.0, 0.0, 0.2)).norm(), 0.0, 1e-9);
+  assert_near(under_m(task, 0.0, 1.0), -0.2, 1e-9);
+  assert_near(under_m(task, 1.0, 1.0), -0.1, 1e-9);
+  // Twice the reach about the benchmark.
+  const std::string site = std::string(kTouchedSite, std::string(kTouchedSite).find("[design]"));
+  const machines::TaskFile ditch =
+      task_of(site +
+              "[design.ditch]\nfrom = [4333.5, 8765.2, 54.0]\nto = [4333.5, 8770.2]\n"
+              "bottom = 0.6\nsides = [1.0, 1.0]\ntop = 1.0\n");
+  assert_near(under_m(ditch, 12.0, 2.0), -0.3, 2e-3);
+}
+
+/// A frame of the file can be touched again where it has a second point; of touched points the one
+/// that is farthest from the benchmark.
+TEST(a_given_site_can_be_touched_again) {
+  const std::string design = "[design]\nthrough = [1.0, 2.0, 3.0]\nslope = 0.0\n";
+  const machines::TaskFile given = task_of(
+      "[site]\nbenchmark = [1.0, 2.0, 3.0]\ntouched = [5.0, 0.0, 0.1]\n"
+      "heading = 1.5707963268\nsecond = [1.0, 6.0, 3.0]\n" +
+      design);
+  assert_false(given.site->points.by_touch);
+  assert_near((given.site->points.benchmark_m - Eigen::Vector3d(5.0, 0.0, 0.1)).norm(), 0.0, 1e-9);
+  assert_near((given.site->points.second_m - Eigen::Vector3d(9.0, 0.0, 0.1)).norm(), 0.0, 1e-9);
+  const machines::TaskFile points = task_of(
+      "[[site.point]]\nplace = [0.0, 0.0, 0.0]\ntouched = [5.0, 0.0, 0.0]\n"
+      "[[site.point]]\nplace = [0.0, 3.5, 0.0]\ntouched = [5.0, 3.5, 0.0]\n"
+      "[[site.point]]\nplace = [-1.0, 4.0, 0.0]\ntouched = [4.0, 4.0, 0.0]\n" +
+      design);
+  assert_true(points.site->points.can_touch);
+  assert_near(points.site->points.second_m.y(), 4.0, 1e-6);
+}
+
+TEST(a_site_that_cannot_be_touched_is_refused) {
+  const std::string near = "[site]\nbenchmark = [0.0, 0.0, 0.0]\nsecond = [2.9, 0.0, 9.0]\n";
+  const std::string design = "[design]\nthrough = [0.0, 0.0, 0.0]\nslope = 0.0\n";
+  assert_says(errors_of(near + design), "2.90 m from the benchmark, seen from above; allowed: 3 m");
+  assert_says(errors_of("[site]\nbenchmark = [0.0, 0.0, 0.0]\n" + design), "site.touched");
+  assert_says(errors_of("[site]\nbenchmark = [0.0, 0.0, 0.0]\nheading = 0.0\n"
+                        "second = [4.0, 0.0, 0.0]\n" +
+                        design),
+              "site.touched");
+  assert_says(
+      errors_of(test::shipped("flatten") +
+                "\n[site]\nbenchmark = [0.0, 0.0, 0.0]\nsecond = [4.0, 0.0, 0.0]\n" + design),
+      "steps are planned before");
+}
+
+/// Tasks of one machine stand on one site, touched or given alike.
+TEST(tasks_stand_on_one_site) {
+  const auto both = [](const std::string& one, const std::string& other) {
+    const test::Written first(one);
+    const std::filesystem::path second =
+        std::filesystem::temp_directory_path() /
+        ("graben_other_site_" + std::to_string(getpid()) + ".toml");
+    std::ofstream(second) << other;
+    const std::string said = test::refusal_of([&] {
+      return machines::load_tasks({first.path().string(), second.string()}, {},
+                                  test::profile("excavator_12t"));
+    });
+    std::filesystem::remove(second);
+    return said;
+  };
+  std::string moved = kTouchedSite;
+  moved.replace(moved.find("4325.5"), 6, "4326.5");
+  const std::string own = "[design]\nthrough = [5.0, 0.0, 0.0]\nslope = 0.0\n";
+  assert_true(both(kTouchedSite, kTouchedSite).empty());
+  assert_says(both(kTouchedSite, moved), "its [site] is another one");
+  assert_says(both(kTouchedSite, own), "its [site] is another one");
+  assert_says(both(own, kTouchedSite), "its [site] is another one");
+}

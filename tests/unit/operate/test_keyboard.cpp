@@ -96,6 +96,6 @@ TEST(the_marks_key_is_a_press_that_lets_nothing_go) {
   KeyHold keys;
   assert_true(keys.step(" ", 0).deadman);
   Hands hands = keys.step("p", 20 * kMillisecondUs);
-  assert_true(hands.at_mark && hands.deadman);
-  assert_false(keys.step("", 40 * kMillisecondUs).at_mark);
+  assert_true(hands.touches == TouchKind::kMark && hands.deadman);
+  assert_false(keys.step("", 40 * kMillisecondUs).touches.has_value());
 }

@@ -16,7 +16,7 @@ double behind_m(const DigCycle& cycle, const TaskState& state) {
     return behind_m;
   }
   const double sunk_m = state.dig.height_m - seen_height_m(cycle.program, cycle.seen, state);
-  return std::max(behind_m, kSinks * sunk_m);
+  return std::max(behind_m, kSinksShare * sunk_m);
 }
 
 /// So far behind it goes half as fast.

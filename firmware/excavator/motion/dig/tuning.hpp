@@ -201,7 +201,7 @@ inline constexpr double kHoldsAt = 1.4;
 inline constexpr double kSlowsFaster = 4.0;
 /// Weight of teeth that sink under a last cut, against teeth that are late. [-; chosen: not tried
 /// otherwise]
-inline constexpr double kSinks = 2.5;
+inline constexpr double kSinksShare = 2.5;
 /// Share of their height over the design that teeth may be behind. [-; chosen: not tried otherwise]
 inline constexpr double kOffOfHeight = 0.15;
 

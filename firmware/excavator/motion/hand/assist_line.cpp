@@ -12,7 +12,7 @@ namespace {
 constexpr int kAcrossEdge = 3;
 
 AssistLine line_of_plane(const ExcavatorProfile& profile, const Fence& plane, double swing_rad,
-                         const Eigen::Vector2d& shown_off_m) {
+                         const Eigen::Vector3d& origin_m, const Eigen::Vector2d& shown_off_m) {
   AssistLine line;
   line.known = true;
   const double cosine = std::cos(swing_rad);
@@ -23,7 +23,8 @@ AssistLine line_of_plane(const ExcavatorProfile& profile, const Fence& plane, do
   const double corner_m = 0.5 * profile.geometry.body.bucket_width_m * std::abs(across);
   const double length = up.norm();
   line.up = up / length;
-  line.from_foot_m = (corner_m - plane.offset_m) / length + profile.assist.offset_m +
+  line.from_foot_m = (corner_m - plane.offset_m + plane.normal.dot(origin_m)) / length +
+                     profile.assist.offset_m +
                      line.up.dot(shown_off_m - profile.geometry.boom_foot_m);
   return line;
 }
@@ -36,12 +37,13 @@ struct SectionPlace {
 class Section {
  public:
   Section(const ExcavatorProfile& profile, const DesignSurface& surface, double swing_rad,
-          const Eigen::Vector2d& shown_off_m)
+          const Eigen::Vector3d& origin_m, const Eigen::Vector2d& shown_off_m)
       : surface_(surface),
         outwards_(std::cos(swing_rad), std::sin(swing_rad)),
         half_m_(0.5 * profile.geometry.body.bucket_width_m),
         offset_m_(profile.assist.offset_m),
-        pin_m_(profile.geometry.boom_foot_m - shown_off_m) {}
+        pin_m_(profile.geometry.boom_foot_m - shown_off_m),
+        origin_m_(origin_m) {}
 
   /// As high as the highest that is under the edge; for what lies ahead its corners are enough.
   [[nodiscard]] SectionPlace place(double x_m, int step = 1) const {
@@ -50,13 +52,14 @@ class Section {
     for (int i = 0; i < kAcrossEdge; i += step) {
       const double left_m = half_m_ * (i - 1);
       double height_m = 0.0;
-      if (!surface_.height_at(out_m * outwards_.x() - left_m * outwards_.y(),
-                              out_m * outwards_.y() + left_m * outwards_.x(), height_m)) {
+      if (!surface_.height_at(out_m * outwards_.x() - left_m * outwards_.y() + origin_m_.x(),
+                              out_m * outwards_.y() + left_m * outwards_.x() + origin_m_.y(),
+                              height_m)) {
         return {};
       }
       most_m = std::max(most_m, height_m);
     }
-    return {true, most_m - pin_m_.y()};
+    return {true, most_m - pin_m_.y() - origin_m_.z()};
   }
 
   [[nodiscard]] SectionPlace corners(double x_m) const { return place(x_m, kAcrossEdge - 1); }
@@ -118,26 +121,31 @@ class Section {
   Eigen::Vector2d outwards_;
   double half_m_;
   double offset_m_;
-  Eigen::Vector2d pin_m_;  ///< In the ground frame in which the surface lies where it is shown.
+  Eigen::Vector2d pin_m_;     ///< In the ground frame in which the surface lies where it is shown.
+  Eigen::Vector3d origin_m_;  ///< Of that in the surface's own frame.
 };
 
 }  // namespace
 
-AssistDesign assist_design(const ExcavatorProfile& profile, const FenceSet& fences,
+AssistDesign assist_design(const ExcavatorProfile& profile, const FenceView& fences,
                            double swing_rad, const Eigen::Vector2d& shown_off_m,
                            const AssistView& view) {
   AssistDesign design;
-  const int last = std::max(0, fences.count - 1);
-  const Fence& fence = fences.fence[static_cast<unsigned>(last)];
-  design.present = fences.count > 0 && fence.is_design();
+  if (fences.count == 0) {
+    return design;
+  }
+  const Fence& fence = fences.at(fences.count - 1);
+  design.present = fence.is_design();
   if (!design.present) {
     return design;
   }
+  const FrameShift shift = fences.shift != nullptr ? *fences.shift : FrameShift{};
+  swing_rad -= shift.turn_rad;
   if (!fence.is_surface()) {
-    design.now = design.at = line_of_plane(profile, fence, swing_rad, shown_off_m);
+    design.now = design.at = line_of_plane(profile, fence, swing_rad, shift.origin_m, shown_off_m);
     return design;
   }
-  const Section section(profile, *fence.surface, swing_rad, shown_off_m);
+  const Section section(profile, *fence.surface, swing_rad, shift.origin_m, shown_off_m);
   design.at = section.line(view.at_m);
   design.now = view.now_m == view.at_m ? design.at : section.line(view.now_m, design.at);
   if (design.at.known && view.way != 0.0) {

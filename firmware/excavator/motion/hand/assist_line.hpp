@@ -27,6 +27,7 @@ struct AssistLine {
 /// the same and nothing lies ahead.
 struct AssistDesign {
   bool present = false;                    ///< The task has a design; it need not reach to here.
+  bool lost = false;                       ///< It has one, and where that lies is not known.
   AssistLine now;                          ///< Under the edge as it is measured.
   AssistLine at;                           ///< Under the edge as it is planned.
   SpeedCap ahead{kAssistFastest_mps, {}};  ///< Along the design.
@@ -45,7 +46,7 @@ struct AssistView {
 /// The design is the last of a program's fences. `shown_off_m`: the edge is shown so much too far
 /// outwards and up. The lines lie assist.offset over the design. Of a surface a line's slope is
 /// that between kAssistKink_m before and behind where the edge is planned.
-[[nodiscard]] AssistDesign assist_design(const ExcavatorProfile& profile, const FenceSet& fences,
+[[nodiscard]] AssistDesign assist_design(const ExcavatorProfile& profile, const FenceView& fences,
                                          double swing_rad, const Eigen::Vector2d& shown_off_m,
                                          const AssistView& view);
 

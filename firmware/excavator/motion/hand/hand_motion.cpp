@@ -89,6 +89,9 @@ HandSpeed target_of(const HandRange& range, bool leads, const HandAsk& ask, bool
 
 AssistState assist_of(const AssistProfile& assist, const HandAsk& ask, const KinematicState& now,
                       const HandState& state) {
+  if (ask.task == Task::kAssist && ask.design.lost) {
+    return AssistState::kAway;
+  }
   if (ask.task != Task::kAssist || !ask.design.present) {
     return AssistState::kNone;
   }

@@ -4,7 +4,7 @@
 /// moves.
 
 #include "firmware/excavator/excavator_profile.hpp"
-#include "firmware/excavator/fences/fence.hpp"
+#include "firmware/excavator/fences/site_frame.hpp"
 #include "firmware/excavator/motion/dig/dig_layers.hpp"
 #include "firmware/excavator/motion/program/drive_plan.hpp"
 #include "firmware/excavator/motion/program/line_plan.hpp"
@@ -104,6 +104,12 @@ struct TaskProgram {
 struct TaskBook {
   std::array<TaskProgram, kTaskMost> program;
   int count = 0;
+  SitePoints site;  ///< Of all of them: the machine stands in one place.
+
+  /// Whose fences and design hold what moves by the levers: that which is chosen, or the first.
+  [[nodiscard]] const TaskProgram& chosen(int number) const {
+    return program[number >= 0 && number < count ? static_cast<unsigned>(number) : 0U];
+  }
 
   /// A bit each, the first one the lowest: those with steps. The others only have fences and a
   /// design, for what moves by the levers.
