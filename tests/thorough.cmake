@@ -52,6 +52,8 @@ graben_thorough("closed_loop_bounds has both sizes" closed_loop_scaled)
 graben_thorough("closed_loop_trench: the smallest and the largest" closed_loop_trench_every)
 graben_thorough("closed_loop_designs, closed_loop_tilt" closed_loop_curves)
 graben_thorough("unit_identify_*, unit_commission" cli_identify cli_identify_log)
+graben_thorough("cli_drift" cli_drift_weeks)
+graben_thorough("unit_learnt_valve, unit_oil_softness" cli_learning)
 graben_thorough("unit_motion, unit_motion_csv, unit_motion_result" cli_verdict)
 
 # The real binaries in a guest: one class of link each, and what only a kernel can break.

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """How soon `graben drift` sees what wears, and how often it sees what does not: hidden machines, a log a day in which one
-thing grows from day to day. Not a test: minutes. drift_campaign.py GRABEN [--machines 5] [--days 10] [--kinds leak3,healthy]
+thing grows from day to day. 2.4 CPU seconds a log. drift_campaign.py GRABEN [--machines 5] [--days 10] [--kinds leak3,healthy] [--judge]
 
 Prints what came of each machine, then a row for each kind: of how many machines its work order was there with the first log in which it had half of its
-final size, and work orders of anything else, of so many days.
+final size, and work orders of anything else, of so many days. With --judge the status is 1 where a kind is seen by then on fewer than 90 % of the machines, or
+more than one order in 1000 days is of something else.
 """
 
 import argparse
@@ -11,10 +12,14 @@ import json
 import multiprocessing
 import pathlib
 import subprocess
+import sys
 import tempfile
 
 DAY_S = 86400.0
 BEGIN_S = 1788307200.0  # 2 September 2026, 00:00 UTC.
+
+SEEN = 0.9
+FALSE_PER_DAY = 1e-3
 
 # What is told of the machine when a share of it has grown, and the figure that has to show it.
 KINDS = {
@@ -70,6 +75,7 @@ def main():
     parser.add_argument("--days", type=int, default=10)
     parser.add_argument("--kinds", default=",".join(KINDS))
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--judge", action="store_true", help="Status 1 where the bounds are missed")
     parser.add_argument("--summary", help="All that drift said, as JSON")
     asked = parser.parse_args()
     half_day = -(-(asked.days - 1) // 2)
@@ -81,6 +87,8 @@ def main():
             results.append(result)
             beyond = [f"{part}: {what}, day {day}" for what, part, day in result[2] if day is not None]
             print(f"  {result[0]}, machine {result[1]}: {'; '.join(beyond) or 'no order'}", flush=True)
+    missed = []
+    false_orders = 0
     for kind in asked.kinds.split(","):
         mine = [result for result in results if result[0] == kind]
         wanted = KINDS[kind][1]
@@ -89,16 +97,24 @@ def main():
         false = [f"{part}: {what} (machine {machine}, day {day})" for _, machine, rows, _ in mine
                  for what, part, day in rows if day is not None and what != wanted]
         seen = sum(first is not None and first <= half_day for first in firsts)
+        false_orders += len(false)
+        if wanted is not None and seen < SEEN * len(mine):
+            missed.append(f"{kind}: seen in time on {seen} of {len(mine)}")
         # What grows grows in all parts alike: of one part alone is what counts for a fault of one.
         parts = [day for _, _, rows, _ in mine for what, _, day in rows if what == wanted]
         of_parts = sum(day is not None and day <= half_day for day in parts)
         text = "" if wanted is None else (f"seen by half of its size on {seen} of {len(mine)} machines, first days {firsts}, "
                                           f"in {of_parts} of {len(parts)} parts; ")
         print(f"{kind:<8} {text}{len(false)} false orders in {len(mine) * asked.days} days {'; '.join(false)}", flush=True)
+    if false_orders > FALSE_PER_DAY * len(results) * asked.days:
+        missed.append(f"{false_orders} false orders in {len(results) * asked.days} days")
     if asked.summary:
         pathlib.Path(asked.summary).write_text(json.dumps([result[3] | {"kind": result[0], "machine": result[1]}
                                                            for result in results]))
+    if missed:
+        print(f"missed: {'; '.join(missed)}")
+    return 1 if missed and asked.judge else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

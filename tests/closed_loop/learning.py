@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What learning at work (`control.learns`) is worth: every kind of campaign with it and without, on the same draws.
-learning.py GRABEN [--draws 12] [--seed 1] [--only "dig, soil;grade"] [--jobs N]
+learning.py GRABEN [--draws 12] [--seed 1] [--only "dig, soil+grade"] [--jobs N]
 
 Prints a row for each campaign: draws that came to their end, the median, the 95th percentile and the largest of its error, on and off;
 then how many are worse with learning, by more than 2 % and 0.5 mm of the 95th percentile, or by draws that did not end. Status 1 if any is."""
@@ -80,11 +80,11 @@ def main():
     parser.add_argument("graben")
     parser.add_argument("--draws", type=int, default=12)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", default="", help="Campaigns whose names begin so, with semicolons between")
+    parser.add_argument("--only", default="", help="Campaigns whose names begin so, with + between")
     parser.add_argument("--jobs", type=int)
     asked = parser.parse_args()
     chosen = [each for each in CAMPAIGNS
-              if not asked.only or any(each[0].startswith(name) for name in asked.only.split(";"))]
+              if not asked.only or any(each[0].startswith(name) for name in asked.only.split("+"))]
     worse = []
     print(f"{'campaign':<31} {'ended':>8}  {'median':>13}  {'p95':>13}  {'largest':>13}   on / off, mm")
     with tempfile.TemporaryDirectory() as name:
