@@ -118,7 +118,8 @@ void print_table(const std::vector<RowResult>& results) {
     fmt::print("\n");
   }
   fmt::print(
-      "N neutral, L latched, D goes on slower, I ignored and counted; worst of all seeds. 'to "
+      "N neutral, L latched, D goes on slower, W goes on and warns, I ignored and counted; worst "
+      "of all seeds. 'to "
       "neutral' from detection,\n'in all' from the first wrong thing (in silence from the last "
       "right frame); v: the bus carried no frame of the\ncontroller's, the valve side closed by "
       "its own 100 ms. 'beyond': what closing the spools allows, 'creep': after it.\n"

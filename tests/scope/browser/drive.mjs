@@ -341,11 +341,12 @@ async function bad_logs() {
   const identity = /( (?:18FF3482|0CFF3080)#)([0-9A-F]{8})([0-9A-F]{2})(?=[0-9A-F]{4}FF$)/gm;
   const version = Number.parseInt(/ 18FF3482#[0-9A-F]{8}([0-9A-F]{2})/.exec(log)[1], 16);
   const byte = (value) => value.toString(16).toUpperCase().padStart(2, '0');
-  // Older than the oldest that the page reads, which is two before this.
-  const older = log.replace(identity, `$1$2${byte(version - 3)}`);
+  // Older than the oldest that the page reads of an excavator (dbc.ts).
+  const oldest = 10;
+  const older = log.replace(identity, `$1$2${byte(oldest - 1)}`);
   assert.notEqual(older, log);
   assert.match(await shown('older.log', older, 'dbc'), new RegExp(
-    `Written with DBC version ${version - 3}, this page reads versions ${version - 2} to ${version}: `
+    `Written with DBC version ${oldest - 1}, this page reads versions ${oldest} to ${version}: `
     + 'values may be wrong'));
   const other = log.replace(identity, '$1DEADBEEF$3');
   assert.match(await shown('other.log', other, 'profile'),
