@@ -265,12 +265,32 @@ std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup, const Bu
 
 /// Nothing where neither the options nor the service manager have a folder.
 template <class Kind>
-std::unique_ptr<ProcessStore> open_store(const std::string& told, std::uint32_t profile_hash) {
-  const std::string folder = store_folder(told, std::getenv("STATE_DIRECTORY"));
+std::unique_ptr<ProcessStore> open_store(const EcuOptions& options, std::uint32_t profile_hash) {
+  const std::string folder = store_folder(options.store, std::getenv("STATE_DIRECTORY"));
   constexpr const typename Kind::Inputs* kKind = nullptr;
-  return folder.empty()
-             ? nullptr
-             : std::make_unique<ProcessStore>(folder, profile_hash, sample_kind_of(kKind));
+  if (folder.empty()) {
+    if (options.keeps_ground) {
+      throw std::runtime_error("--keep-ground: there is no store to keep it in (--store)");
+    }
+    return nullptr;
+  }
+  return std::make_unique<ProcessStore>(folder, profile_hash, sample_kind_of(kKind),
+                                        options.keeps_ground);
+}
+
+/// Where the edge has been, to the store's thread; of an edge whose width nobody says, no ground is
+/// known.
+template <class Setup>
+ground::EdgeRing* edges_of(const Setup& setup, ProcessStore* store) {
+  ground::EdgeRing* const edges = store == nullptr ? nullptr : store->edges();
+  if (edges != nullptr && !(ground::edge_width_m(setup) > 0.0)) {
+    std::fputs(
+        "graben-ecu: --keep-ground: the profile does not say how wide the edge is; no ground is "
+        "kept\n",
+        stderr);
+    return nullptr;
+  }
+  return edges;
 }
 
 /// From the interfaces to the statistics, with the controller of a machine kind.
@@ -295,7 +315,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   Watchdog watchdog(manager);
   UsageMark mark;
   ecu.set_last_frames(last);
-  auto store = open_store<Kind>(options.store, profile_hash);
+  auto store = open_store<Kind>(options, profile_hash);
   if (typename Kind::Learnt learnt;
       store != nullptr && learnt_from(store->found().learnt, learnt) && !ecu.begin(learnt)) {
     std::fputs("graben-ecu: store: what was learnt is beyond what can be: begins anew\n", stderr);
@@ -320,9 +340,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   AddressNote address_note(manager, claim);
 
   Workshop workshop(address, port, store.get());
-  // Of an edge whose width nobody says, no ground is known.
-  const bool has_edge = store != nullptr && ground::edge_width_m(setup) > 0.0;
-  ground::EdgeFeed edge(ground::finder_of(setup), has_edge ? &store->edges() : nullptr);
+  ground::EdgeFeed edge(ground::finder_of(setup), edges_of(setup, store.get()));
   cycle_until_stopped(ecu, clock, watchdog, mark, note, address_note, workshop, edge,
                       options.real_time);
 

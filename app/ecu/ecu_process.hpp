@@ -26,6 +26,7 @@ struct EcuOptions {
   std::string stats_file;             ///< Written on the way out; none if empty.
   std::optional<std::uint64_t> name;  ///< NAME on J1939; without it found_name().
   std::string store;                  ///< Folder; $STATE_DIRECTORY if empty; none without that.
+  bool keeps_ground = false;          ///< As the edge has left it; in the store.
   /// Of tasks that need drives which were not commissioned.
   machines::UnknownTask unknown = machines::UnknownTask::kRefused;
   bool real_time = true;

@@ -251,7 +251,7 @@ def missing_files(graben, folder):
                              ("recorded motion, a CSV", "identify", "--csv", "NONE", "--summary", "s.json"),
                              ("a campaign's draws, as graben campaign", "campaign", "merge", "NONE", "--summary", "m"),
                              ("a campaign on a cluster; graben campaign", "campaign", "progress", "NONE"),
-                             ("a design: LandXML, points", "grade", "--design", "NONE"),
+                             ("a design: LandXML, DXF, points", "grade", "--design", "NONE"),
                              ("a file or one of dozer_9t", "check", "NONE"),
                              ("a file or one of dozer_9t", "dig", "--profile", "NONE"),
                              ("excavator_22t_found", "dig", "--simulated", "NONE"),

@@ -42,15 +42,18 @@ std::string store_folder(const std::string& told, const char* state_directory) {
   return all.substr(0, all.find(':'));
 }
 
-ProcessStore::ProcessStore(const std::string& folder, std::uint32_t profile_hash, SampleKind kind)
+ProcessStore::ProcessStore(const std::string& folder, std::uint32_t profile_hash, SampleKind kind,
+                           bool keeps_ground)
     : files_(folder),
       fault_files_(files_, changes_),
       ground_files_(files_, changes_),
       store_(fault_files_, profile_hash),
       ground_store_(ground_files_, profile_hash),
       keeper_(store_, rings_, kind, &say_error),
-      ground_(ground_store_, edges_, kind == SampleKind::kExcavator, &say_error),
-      works_(keeper_, ground_),
+      ground_(keeps_ground ? std::make_unique<KeptGround>(
+                                 ground_store_, kind == SampleKind::kExcavator, &say_error)
+                           : nullptr),
+      works_(keeper_, ground_ ? &ground_->keeper : nullptr),
       thread_(works_) {
   const bool is_open = files_.open();
   const std::string found = keeper_.begin(monotonic_now_us(), boot_mark());
@@ -65,7 +68,9 @@ ProcessStore::ProcessStore(const std::string& folder, std::uint32_t profile_hash
   } else {
     say(line);
   }
-  ground_.begin(monotonic_now_us());
+  if (ground_) {
+    ground_->keeper.begin(monotonic_now_us());
+  }
   if (const ErrorText error = thread_.start(); !error.empty()) {
     say_error((std::string("store: ") + error.c_str() + "; nothing is stored").c_str());
   }
@@ -77,7 +82,7 @@ StoreCounters ProcessStore::counters() const {
           keeper_.writes(),
           keeper_.failures(),
           keeper_.dropped(),
-          ground_.counters()};
+          ground_ ? ground_->keeper.counters() : ground::GroundCounters{}};
 }
 
 bool ProcessStore::end() { return thread_.end(kMostWaitUs); }

@@ -26,23 +26,37 @@ struct StoreCounters {
   ground::GroundCounters ground;
 };
 
-/// Both of a store's rows of work: faults first.
+/// The ground as the edge has left it, and the way to its keeper: 1.6 MB, all of it locked.
+struct KeptGround {
+  /// `store` outlives it.
+  KeptGround(Store& store, bool by_force, ground::GroundKeeper::Say say)
+      : keeper(store, edges, by_force, say) {}
+
+  ground::EdgeRing edges;
+  ground::GroundKeeper keeper;
+};
+
+/// A store's rows of work: faults first.
 class StoreWorks : public StoreWork {
  public:
-  /// Both outlive it.
-  StoreWorks(StoreWork& first, StoreWork& second) : first_(first), second_(second) {}
+  /// Both outlive it. Null: no ground is kept.
+  StoreWorks(StoreWork& first, StoreWork* second) : first_(first), second_(second) {}
   void work(TimeUs now_us, std::uint32_t unix_s) override {
     first_.work(now_us, unix_s);
-    second_.work(now_us, unix_s);
+    if (second_ != nullptr) {
+      second_->work(now_us, unix_s);
+    }
   }
   void finish(TimeUs now_us, std::uint32_t unix_s) override {
     first_.finish(now_us, unix_s);
-    second_.finish(now_us, unix_s);
+    if (second_ != nullptr) {
+      second_->finish(now_us, unix_s);
+    }
   }
 
  private:
   StoreWork& first_;
-  StoreWork& second_;
+  StoreWork* second_;
 };
 
 /// The folder of `--store`; else that of $STATE_DIRECTORY, the first if it has several; else "".
@@ -52,13 +66,14 @@ class ProcessStore {
  public:
   /// Reads what is there and says it in one line on standard error; begins the thread. To be called
   /// before memory is locked. Whatever is wrong with folder or disk is said, and is no reason not
-  /// to start.
-  ProcessStore(const std::string& folder, std::uint32_t profile_hash, SampleKind kind);
+  /// to start. `keeps_ground`: see KeptGround.
+  ProcessStore(const std::string& folder, std::uint32_t profile_hash, SampleKind kind,
+               bool keeps_ground);
 
   /// To the store's thread, for the recorder.
   [[nodiscard]] FaultRings& rings() { return rings_; }
-  /// To the store's thread, where the edge has been.
-  [[nodiscard]] ground::EdgeRing& edges() { return edges_; }
+  /// To the store's thread, where the edge has been; null where no ground is kept.
+  [[nodiscard]] ground::EdgeRing* edges() { return ground_ ? &ground_->edges : nullptr; }
   /// As it was read.
   [[nodiscard]] const FaultHistory& found() const { return found_; }
 
@@ -75,9 +90,8 @@ class ProcessStore {
   Store store_;
   Store ground_store_;
   FaultRings rings_;
-  ground::EdgeRing edges_;
   FaultKeeper keeper_;
-  ground::GroundKeeper ground_;
+  std::unique_ptr<KeptGround> ground_;
   StoreWorks works_;
   FaultHistory found_;
   StoreThread thread_;
