@@ -122,7 +122,7 @@ void warn(Fault fault, CommonValid& inputs) { inputs.warned.add(fault); }
 void tell_unknown(const UnknownDrives& unknown, CommonValid& inputs) {
   const double left_ratio = unknown.left_ratio(inputs.task, inputs.task_number);
   inputs.speed_override_ratio *= left_ratio;
-  if (left_ratio <= 0.0) {
+  if (!(left_ratio > 0.0)) {
     FaultSet refused;
     refused.add(Fault::kTaskUnknown);
     stop(refused, inputs);

@@ -70,7 +70,7 @@ constexpr Scale kScales[] = {
     {"Deadline", 10e-3, 0.0, 0.1, 1.0},
 };
 
-TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 120); }
+TEST(every_raw_value) { check_every_raw_value<bus::AllMessages>(kScales, 121); }
 
 TEST(saturates_and_refuses) { check_saturation_and_refusal<bus::AllMessages>(kScales); }
 
