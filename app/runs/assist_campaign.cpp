@@ -66,8 +66,9 @@ std::string cell_table(const CampaignData& data, const AssistTrial& trial) {
                         kLeverRecords.at(static_cast<std::size_t>(of.record)));
     for (std::size_t i = 0; i < figures; ++i) {
       const ShownUnit& unit = assist_kind().columns[i]->unit;
+      const auto& values = cell[i];
       const auto shown = [&](double share) {
-        const double value = ranked(cell[i], share);
+        const double value = ranked(values, share);
         return std::isnan(value) ? std::string("-")
                                  : fmt::format("{:.{}f}", value * unit.per_si, unit.decimals);
       };

@@ -335,6 +335,11 @@ TEST(a_task_that_needs_unknown_drives_is_refused_or_slow) {
       assert_left(asked(unknown, task, 2), 0.8, Fault::kNone);
     }
   }
+  // What can be no speed is none.
+  for (const double wrong : {-1.0, std::nan("")}) {
+    unknown.speed_ratio = wrong;
+    assert_int_equal(asked(unknown, Task::kGrade).fault, Fault::kTaskUnknown);
+  }
   // What came first stays the first.
   CommonValid late = with_fault(Fault::kBusOff);
   late.fault = Fault::kBusOff;
