@@ -19,6 +19,13 @@ DriveVector inside_stops(DriveRows drives, DriveVector travel_m) {
   return travel_m;
 }
 
+/// `turn`: cosine and sine.
+void turn_right(const Eigen::Vector2d& turn, Eigen::Vector3d& vector) {
+  const double x = vector.x();
+  vector.x() = turn.x() * x + turn.y() * vector.y();
+  vector.y() = turn.x() * vector.y() - turn.y() * x;
+}
+
 /// What is beyond a fence and would go on.
 struct Beyond {
   std::uint8_t fence = 0;
@@ -39,9 +46,14 @@ class FencedMachine {
       return false;
     }
     const double far_m = nothing_to_slow_m(motion);
-    for (int i = 0; i < fences_.count; ++i) {
-      look_from_site(i, velocity, motion);
+    // The design is the last of them.
+    const int moved = is_moved() ? 1 : 0;
+    for (int i = 0; i < fences_.count - moved; ++i) {
       slow_at(i, motion, far_m, cap);
+    }
+    if (moved > 0) {
+      look_from_site(motion);
+      slow_at(fences_.count - 1, motion, far_m, cap);
     }
     return true;
   }
@@ -97,32 +109,36 @@ class FencedMachine {
     }
   }
 
-  /// A design that lies elsewhere than it is given is the last of the fences: from it on the
-  /// machine is seen in its frame.
-  void look_from_site(int number, const DriveVector& velocity, MachineMotion& motion) const {
-    if (fences_.shift == nullptr || !fence_at(number).is_design()) {
-      return;
-    }
-    DriveVector at = at_;
-    at[kSwing] -= fences_.shift->turn_rad;
-    motion = machine_motion(kinematics_, at, velocity, unsure_drives(profile_));
+  /// A design lies elsewhere than it is given: the machine is seen in its frame.
+  [[nodiscard]] bool is_moved() const {
+    return fences_.shift != nullptr && fences_.count > 0 && fence_at(fences_.count - 1).is_design();
+  }
+
+  /// Of one that is moved: the same motion, turned about the swing's axis.
+  void look_from_site(MachineMotion& motion) const {
+    const Eigen::Vector2d turn(std::cos(fences_.shift->turn_rad),
+                               std::sin(fences_.shift->turn_rad));
+    turn_right(turn, motion.left);
     for (PointMotion& point : motion.point) {
+      turn_right(turn, point.position_m);
+      turn_right(turn, point.velocity_mps);
       point.position_m += fences_.shift->origin_m;
     }
   }
 
   [[nodiscard]] bool leads_further(const DriveVector& velocity) const {
-    MachineMotion motion = machine_motion(kinematics_, at_, velocity);
+    const MachineMotion here = machine_motion(kinematics_, at_, velocity);
+    MachineMotion on_site = here;
+    const int moved = is_moved() ? fences_.count - 1 : -1;
+    if (moved >= 0) {
+      look_from_site(on_site);
+    }
     bool further = false;
-    int seen = -1;
     for (int i = 0; i < beyond_count_; ++i) {
       const Beyond& what = beyond_[static_cast<unsigned>(i)];
-      if (what.fence != seen) {
-        seen = what.fence;
-        look_from_site(seen, velocity, motion);
-      }
-      const FenceGap gap = fence_gap(fence_at(what.fence), body(), motion, what.gap,
-                                     std::numeric_limits<double>::infinity());
+      const FenceGap gap =
+          fence_gap(fence_at(what.fence), body(), what.fence == moved ? on_site : here, what.gap,
+                    std::numeric_limits<double>::infinity());
       further = further || gap.closing_mps > kStandsStill;
     }
     return further;
