@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "app/ecu/address_name.hpp"
 #include "app/ecu/ecu_process.hpp"
@@ -86,6 +87,11 @@ std::optional<EcuOptions> read_options(int argc, const char* const* argv, int& s
   std::sort(names.begin(), names.end());
   if (std::adjacent_find(names.begin(), names.end()) != names.end()) {
     std::fputs("graben-ecu: --can: an interface is named twice\n", stderr);
+    status = kWrongUsage;
+    return std::nullopt;
+  }
+  if (options.keeps_ground && store_folder(options.store, std::getenv("STATE_DIRECTORY")).empty()) {
+    std::fputs("graben-ecu: --keep-ground: there is no store to keep it in (--store)\n", stderr);
     status = kWrongUsage;
     return std::nullopt;
   }

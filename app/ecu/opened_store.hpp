@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "app/ecu/ecu_process.hpp"
@@ -21,14 +20,9 @@ template <class Kind>
 std::unique_ptr<ProcessStore> open_store(const EcuOptions& options, std::uint32_t profile_hash) {
   const std::string folder = store_folder(options.store, std::getenv("STATE_DIRECTORY"));
   constexpr const typename Kind::Inputs* kKind = nullptr;
-  if (folder.empty()) {
-    if (options.keeps_ground) {
-      throw std::runtime_error("--keep-ground: there is no store to keep it in (--store)");
-    }
-    return nullptr;
-  }
-  return std::make_unique<ProcessStore>(folder, profile_hash, sample_kind_of(kKind),
-                                        options.keeps_ground);
+  return folder.empty() ? nullptr
+                        : std::make_unique<ProcessStore>(
+                              folder, profile_hash, sample_kind_of(kKind), options.keeps_ground);
 }
 
 /// Where the edge has been, to the store's thread; of an edge whose width nobody says, no ground is

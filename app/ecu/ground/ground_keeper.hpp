@@ -35,7 +35,7 @@ using EdgeRing = ecu::SpscRing<EdgeSample, 1024>;
 template <class Finder>
 class EdgeFeed {
  public:
-  /// Both outlive it. Null: there is no store.
+  /// Both outlive it. Null: no ground is kept.
   EdgeFeed(const Finder& finder, EdgeRing* ring) : finder_(finder), ring_(ring) {}
 
   template <class Inputs, class Outputs>

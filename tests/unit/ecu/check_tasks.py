@@ -71,6 +71,9 @@ def main() -> int:
         blade.write_text('kind = "dozer"\nlike = "dozer_9t"\n[hst]\ndriven = [0.1, 0.9]\n')
         (pathlib.Path(folder) / dozer.name).write_text(dozer.read_text())
         expect(FAILED, ["graben-ecu: grade needs drives that were not commissioned: blade, extend; blade, retract: refused"], blade)
+        # What is to be kept needs a place.
+        expect(WRONG, ["--keep-ground: there is no store to keep it in (--store)"], excavator, more=("--keep-ground",))
+        expect(FAILED, [], excavator, more=("--keep-ground", "--store", folder), reaches_bus=True)
     print("\n".join([*problems, f"tasks of graben-ecu: {len(problems)} problems"]))
     return 1 if problems else 0
 
