@@ -42,6 +42,13 @@ LambdaChange stagnant_change(const FlowBalance& line, const Requirement& require
   return change;
 }
 
+/// A feasible lambda that was found is one to follow, though a larger one may be.
+Halved ended_early(const McvPoint& fails, Halved found) {
+  found.bounded = found.bounded && found.point.lambda > 0.0;
+  found.limit = fails.limit;
+  return found;
+}
+
 }  // namespace
 
 Start fed_start(const McvCircuit& circuit, double most, const Inset& inset) {
@@ -131,8 +138,7 @@ Halved halved(const McvCircuit& circuit, const McvPoint& low, const McvPoint& hi
   double infeasible = high.lambda;
   for (int n = 0; n < kHalvings && infeasible - result.point.lambda > width; ++n) {
     if (!may_step(circuit.work)) {
-      result.bounded = false;
-      return result;
+      return ended_early(fails, result);
     }
     const double middle = 0.5 * (result.point.lambda + infeasible);
     ++result.evaluations;
@@ -140,15 +146,23 @@ Halved halved(const McvCircuit& circuit, const McvPoint& low, const McvPoint& hi
       infeasible = middle;
       continue;
     }
-    near = evaluate(circuit, middle, &near);
+    const McvPoint at = evaluate(circuit, middle, &near);
+    if (!at.converged && circuit.work->left <= 0) {
+      return ended_early(fails, result);
+    }
+    near = at;
     result.bounded = result.bounded && near.converged;
     (near.feasible ? result.point : fails) = near;
     infeasible = near.feasible ? infeasible : middle;
   }
   if (infeasible < fails.lambda) {
     // All of it, for the constraint that comes first.
-    fails = evaluate(circuit, infeasible, &near);
+    const McvPoint at = evaluate(circuit, infeasible, &near);
     ++result.evaluations;
+    if (!at.converged && circuit.work->left <= 0) {
+      return ended_early(fails, result);
+    }
+    fails = at;
     result.bounded = result.bounded && fails.converged;
   }
   result.limit = fails.limit;

@@ -55,7 +55,7 @@ struct LambdaChange {
 /// fails, nothing else is asked.
 struct Halved {
   McvPoint point;
-  Limit limit;  ///< What fails just above.
+  Limit limit;  ///< What fails just above; where the steps ended first, what failed last.
   int evaluations = 0;
   bool bounded = true;
 };

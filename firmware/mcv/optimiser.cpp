@@ -10,12 +10,24 @@
 namespace graben {
 namespace {
 
+/// With steps kept back for what comes after the choice.
+PolicyResult choose_regulated(const Asked& asked, int kept) {
+  Work& work = *asked.circuit.work;
+  work.left -= kept;
+  const PolicyResult chosen = choose_algorithm1(asked);
+  work.left += kept;
+  return chosen;
+}
+
 PolicyResult choose(const Asked& asked, McvPolicy policy) {
   if (policy == McvPolicy::kFixed) {
     return choose_fixed(asked.rising(), asked.most);
   }
   // What the searches over r stand on, a pressure that r alone gives, regulated pumps do not have.
-  if (asked.circuit.regulated || policy == McvPolicy::kAlgorithm1) {
+  if (asked.circuit.regulated) {
+    return choose_regulated(asked, kRegulatedToldSteps);
+  }
+  if (policy == McvPolicy::kAlgorithm1) {
     return choose_algorithm1(asked);
   }
   return policy == McvPolicy::kConnected ? choose_connected(asked) : choose_global(asked);
@@ -59,12 +71,16 @@ PolicyResult choose_with_reserve(McvCircuit& circuit, McvPolicy policy, const La
                     loads_n(circuit, extra_n, range.hold_share), range.most, range.hold};
   PolicyResult chosen = choose(asked, policy);
   asked.with_loads(plain_n);
-  if (chosen.point.lambda > 0.0) {
-    if (circuit.regulated) {
-      chosen.point = evaluate(circuit, chosen.point.lambda);
-    } else {
-      reload(circuit, chosen.point);
-    }
+  if (chosen.point.lambda > 0.0 && circuit.regulated) {
+    // A lighter load is a lower line, at which another drive may fail: down to where none does.
+    const PolicyResult plain =
+        choose_regulated({circuit, plain_n, plain_n, chosen.point.lambda}, kBypassSteps);
+    chosen.limit = plain.point.lambda < chosen.point.lambda ? plain.limit : chosen.limit;
+    chosen.iterations += plain.iterations;
+    chosen.bounded = chosen.bounded && plain.bounded;
+    chosen.point = plain.point;
+  } else if (chosen.point.lambda > 0.0) {
+    reload(circuit, chosen.point);
     // Less load is never less feasible, but for rounding where the reserve is next to nothing.
     chosen.bounded = chosen.bounded && chosen.point.feasible;
   }

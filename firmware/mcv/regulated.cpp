@@ -12,6 +12,13 @@ namespace {
 /// Halvings of sqrt(P). [-; size: they leave less than a millionth of what it can be]
 constexpr int kHalvings = 24;
 
+/// Of a drive's margin, what rounding leaves of it at the pressure that it was solved for. [-;
+/// derived: roots of sums of like size]
+constexpr double kHeldShare = 1.0 - 1e-9;
+/// Times that the drives of a line are asked in turn. [-; size: each has one gap, which another can
+/// raise it into; the last pass but one finds no other]
+constexpr int kGapPasses = 4;
+
 double square(double value) { return value * value; }
 
 /// p_N over the line's pressure.
@@ -24,75 +31,113 @@ double swash_of(const PumpRegulator& by, double felt_pa) {
   return 1.0 - (1.0 - by.least_swash_ratio) * std::clamp(gone, 0.0, 1.0);
 }
 
-PumpPressure by_bypass(const FlowBalance& line, double lambda) {
+/// Of the three flows the falling one first: where its pressure lies in its range, that is the
+/// line's; under that the flow is full, and over it the least.
+PumpPressure by_bypass(const FlowBalance& line, double lambda, double guess) {
   const PumpRegulator& by = line.regulated->regulator;
-  PumpPressure most = solve_pump_pressure(line, lambda);
-  if (!most.fed || !most.converged) {
-    return most;
+  if (!(feed_margin_m3ps(line, lambda) >= 0.0)) {
+    return {};
   }
+  const double felt = felt_share(line);
   const double fall_m3pspa =
       line.flow_m3ps * (1.0 - by.least_swash_ratio) / (by.least_swash_pa - by.full_swash_pa);
   FlowBalance other = line;
   other.flow_m3ps += fall_m3pspa * by.full_swash_pa;
-  other.leak_linear += fall_m3pspa * felt_share(line);
-  const PumpPressure falling = solve_pump_pressure(other, lambda);
-  other = line;
-  other.flow_m3ps = by.least_swash_ratio * line.flow_m3ps;
-  const PumpPressure least = solve_pump_pressure(other, lambda);
-  most.converged = falling.converged && (least.converged || !least.fed);
-  most.iterations += falling.iterations + least.iterations;
-  most.sqrt_pressure = std::min(most.sqrt_pressure, falling.sqrt_pressure);
-  if (least.fed) {
-    most.sqrt_pressure = std::max(most.sqrt_pressure, least.sqrt_pressure);
+  other.leak_linear += fall_m3pspa * felt;
+  PumpPressure falling = solve_pump_pressure(other, lambda, guess);
+  const double felt_pa = square(falling.sqrt_pressure) * felt;
+  if (!falling.converged || (felt_pa >= by.full_swash_pa && felt_pa <= by.least_swash_pa)) {
+    return falling;
   }
-  return most;
+  other = line;
+  if (felt_pa > by.least_swash_pa) {
+    other.flow_m3ps *= by.least_swash_ratio;
+  }
+  const PumpPressure even = solve_pump_pressure(other, lambda, falling.sqrt_pressure);
+  falling.iterations += even.iterations;
+  falling.converged = even.converged || !even.fed;
+  falling.sqrt_pressure = even.fed ? even.sqrt_pressure : falling.sqrt_pressure;
+  return falling;
 }
 
-/// Least sqrt(P) from `from` up at which the axis has its margin's force.
-double held_sqrt_pressure(const CircuitAxis& axis, double lambda, double from, Work* work) {
+/// Where the axis has its margin's force while its check valve is open, the gallery gives way:
+/// s^2 = (F + A_out g^2) / A_in in (q - c_d g)^2 = c_c^2 (g^2 - s^2), (18), at the smaller g.
+double regenerating_sqrt_pressure(const CircuitAxis& axis, double lambda) {
+  const double needed_n = axis.margin_force_n + axis.load_force_n;
+  const double out_m3ps = lambda * axis.q_out_m3ps;
+  const double check = square(axis.c_check);
+  const double of_square =
+      square(axis.c_drain) - check * (1.0 - axis.outlet_area_m2 / axis.inlet_area_m2);
+  const double of_half = out_m3ps * axis.c_drain;
+  const double without = square(out_m3ps) + check * needed_n / axis.inlet_area_m2;
+  const double root = std::sqrt(std::max(0.0, square(of_half) - of_square * without));
+  const double held_n = needed_n + axis.outlet_area_m2 * square(without / (of_half + root));
+  return std::sqrt(std::max(0.0, held_n / axis.inlet_area_m2));
+}
+
+/// Least sqrt(P) from `from` up at which the axis has its margin's force. Where more oil comes out
+/// than goes in, a higher line holds the gallery up, and the force has a gap below what shuts its
+/// check valve.
+double held_sqrt_pressure(const CircuitAxis& axis, double lambda, double from) {
   if (drive_force(axis, lambda, from).force_n >= axis.margin_force_n) {
     return from;
   }
-  double needed_n = axis.margin_force_n + axis.load_force_n;
   const double shut = axis.regeneration ? lambda * axis.opening : 0.0;
-  needed_n += axis.regeneration ? axis.outlet_area_m2 * square(shut) : 0.0;
-  const double alone = std::sqrt(std::max(0.0, needed_n / axis.inlet_area_m2));
-  if (alone >= shut) {
-    return alone;
-  }
-  // Under what shuts the check valve the gallery gives way.
-  double low = from;
-  double high = shut;
-  for (int n = 0; n < kHalvings && may_step(work); ++n) {
-    const double middle = 0.5 * (low + high);
-    const bool holds = drive_force(axis, lambda, middle).force_n >= axis.margin_force_n;
-    (holds ? high : low) = middle;
-  }
-  return high;
-}
-
-PumpPressure by_load(const McvCircuit& circuit, unsigned pump, double lambda) {
-  const FlowBalance& line = circuit.line[pump];
-  PumpPressure most = solve_pump_pressure(line, lambda);
-  if (!most.fed || !most.converged) {
-    return most;
-  }
-  double wanted = std::sqrt(line.regulated->regulator.margin_pa);
-  for (unsigned i = 0; i < circuit.axis_count; ++i) {
-    const CircuitAxis& axis = circuit.axis[i];
-    if (axis.moves && axis.pump == pump) {
-      wanted = held_sqrt_pressure(axis, lambda, wanted, line.work);
+  if (from < shut) {
+    const double open = regenerating_sqrt_pressure(axis, lambda);
+    if (open > from && open < shut &&
+        drive_force(axis, lambda, open).force_n >= kHeldShare * axis.margin_force_n) {
+      return open;
     }
   }
+  const double drained_n = axis.regeneration ? axis.outlet_area_m2 * square(shut) : 0.0;
+  const double needed_n = axis.margin_force_n + axis.load_force_n + drained_n;
+  return std::max({from, shut, std::sqrt(std::max(0.0, needed_n / axis.inlet_area_m2))});
+}
+
+/// Least sqrt(P) from `from` up at which all drives of the line have their margins: what one asks
+/// for can be in another's gap.
+double all_held_sqrt_pressure(const McvCircuit& circuit, unsigned pump, double lambda,
+                              double from) {
+  double wanted = from;
+  for (int pass = 0; pass < kGapPasses; ++pass) {
+    const double before = wanted;
+    for (unsigned i = 0; i < circuit.axis_count; ++i) {
+      const CircuitAxis& axis = circuit.axis[i];
+      if (axis.moves && axis.pump == pump) {
+        wanted = held_sqrt_pressure(axis, lambda, wanted);
+      }
+    }
+    if (wanted <= before) {
+      return wanted;
+    }
+  }
+  return wanted;
+}
+
+PumpPressure by_load(const McvCircuit& circuit, unsigned pump, double lambda, double guess) {
+  const FlowBalance& line = circuit.line[pump];
+  if (!(feed_margin_m3ps(line, lambda) >= 0.0) || !(line.bypass > 0.0)) {
+    return solve_pump_pressure(line, lambda);
+  }
+  const double margin = std::sqrt(line.regulated->regulator.margin_pa);
+  double wanted = all_held_sqrt_pressure(circuit, pump, lambda, margin);
+  PumpPressure alone;
   if (line.regeneration_count > 0) {
     // What comes back may be more than goes out: no pump takes it away.
     FlowBalance idle = line;
     idle.flow_m3ps = 0.0;
-    const PumpPressure alone = solve_pump_pressure(idle, lambda);
-    wanted = alone.fed ? std::max(wanted, alone.sqrt_pressure) : wanted;
+    if (feed_margin_m3ps(idle, lambda) >= 0.0 && flow_left(idle, lambda, wanted) > 0.0) {
+      alone = solve_pump_pressure(idle, lambda, guess);
+      wanted = all_held_sqrt_pressure(circuit, pump, lambda, alone.sqrt_pressure);
+    }
   }
-  most.sqrt_pressure = std::min(most.sqrt_pressure, wanted);
-  return most;
+  if (alone.fed && !alone.converged) {
+    return alone;
+  }
+  wanted = line.has_relief ? std::min(wanted, line.sqrt_relief) : wanted;
+  return flow_left(line, lambda, wanted) >= 0.0 ? PumpPressure{true, true, wanted, alone.iterations}
+                                                : solve_pump_pressure(line, lambda, wanted);
 }
 
 /// c_v,by of (20) at an opening, where it closes over some of it.
@@ -184,7 +229,7 @@ double drive_yield_mpsn(const CircuitAxis& axis, double lambda, double force_n,
 PumpPressure most_pressure(const FlowBalance& line, double lambda) {
   const bool falls =
       line.regulated != nullptr && line.regulated->regulator.kind == PumpKind::kNegativeFlow;
-  return falls ? by_bypass(line, lambda) : solve_pump_pressure(line, lambda);
+  return falls ? by_bypass(line, lambda, kInfinity) : solve_pump_pressure(line, lambda);
 }
 
 PumpPressure line_pressure(const McvCircuit& circuit, unsigned pump, double lambda, double guess) {
@@ -192,8 +237,9 @@ PumpPressure line_pressure(const McvCircuit& circuit, unsigned pump, double lamb
   if (line.regulated == nullptr) {
     return solve_pump_pressure(line, lambda, guess);
   }
-  return line.regulated->regulator.kind == PumpKind::kLoadSensing ? by_load(circuit, pump, lambda)
-                                                                  : by_bypass(line, lambda);
+  return line.regulated->regulator.kind == PumpKind::kLoadSensing
+             ? by_load(circuit, pump, lambda, guess)
+             : by_bypass(line, lambda, guess);
 }
 
 double regulated_coefficient(const CircuitAxis& axis, double lambda, const DriveForce& drive) {

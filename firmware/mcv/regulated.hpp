@@ -30,7 +30,7 @@
 namespace graben {
 
 /// Pressure of a line, whatever sets its pump, at lambda in (0, 1]. `guess` as of
-/// solve_pump_pressure; a line that is regulated does not look at it.
+/// solve_pump_pressure.
 [[nodiscard]] PumpPressure line_pressure(const McvCircuit& circuit, unsigned pump, double lambda,
                                          double guess = kInfinity);
 

@@ -50,6 +50,12 @@ inline constexpr int kHalvingSteps = 320;
 /// million random circuits all but a ten thousandth take 287 with those for halving; a second solve
 /// has as many unless the first was one of the others]
 inline constexpr int kLeastSteps = 240;
+/// Steps of them that are kept for what is told of a choice, where pumps set their own swash. [-;
+/// size: two pumps, each a pressure of three parts and a bypass that settles: 90 at most in 3 000
+/// cycles of the shipped machines]
+inline constexpr int kRegulatedToldSteps = 120;
+/// Steps of these for the bypasses alone. [-; derived: 24 halvings for each of two pumps]
+inline constexpr int kBypassSteps = 48;
 
 /// Actuators of a small circuit at most: one by the policy for the largest lambda, whose pumps
 /// regulate nothing. [-; derived: as many as the shipped machines have]

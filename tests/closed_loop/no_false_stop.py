@@ -32,6 +32,10 @@ KINDS = (
     ("grade", 15, "dozer_9t", ("campaign", "grade")),
     ("flatten", 10, "excavator_12t", ("autodig", "--task", "flatten")),
     ("truck loading", 10, "excavator_12t", ("autodig", "--task", "truck_by_steps")),
+    # Each pump that sets its own swash: fast and light, slow and heavy.
+    *((f"dig, {pump}, {where}", 4, f"excavator_{pump}", ("campaign", "dig", *options))
+      for pump in ("22t_ls", "12t_ls", "22t_nfc", "12t_nfc")
+      for where, options in (("dry", ()), ("soil", ("--soil",)), ("in the air", ("--air",)))),
 )
 
 # As found: key of NAME.sim.toml, and by what it is multiplied. The bands are those of machines that were
@@ -48,7 +52,9 @@ def as_found(profile, seed, folder, bands):
     """Copies of the machine's two files, the simulated one drawn from the seed."""
     draw = random.Random(f"{profile} {seed}")
     lines = []
-    for line in (MACHINES / f"{profile}.sim.toml").read_text(encoding="ascii").splitlines():
+    file = MACHINES / f"{profile}.sim.toml"
+    like = re.search(r'^like = "(\w+)"', file.read_text(encoding="ascii"), re.MULTILINE)
+    for line in (MACHINES / f"{like[1]}.sim.toml" if like else file).read_text(encoding="ascii").splitlines():
         match = LINE.match(line)
         if match and match["key"] in bands:
             value = NUMBER.sub(lambda number: repr(float(number[0]) * draw.uniform(*bands[match["key"]])),

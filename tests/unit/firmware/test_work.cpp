@@ -168,3 +168,28 @@ TEST(a_small_circuit_has_enough_steps) {
   assert_true(ended > 5000);
   assert_true(ran_out > 0);
 }
+
+/// Shipped valves whose pumps set their own swash, with loads that no machine has, some of which
+/// pull, so that checks of regeneration open: both solves of a cycle come to an end.
+TEST(regulated_pumps_have_enough_steps) {
+  int slowed = 0;
+  for (const char* name :
+       {"excavator_22t_ls", "excavator_12t_ls", "excavator_22t_nfc", "excavator_12t_nfc"}) {
+    const machines::SimulatedExcavator machine =
+        machines::load_simulated_excavator(machines::find_profile(name));
+    const McvMachine valve = mcv_machine(machine.profile);
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+      const McvInput input = test::random_case(seed).input;
+      LambdaRange range{1.0, 20e3, seed % 2 == 0 ? 0.0 : 0.9, 0.5};
+      const McvSolution first = solve_mcv(valve, input, McvPolicy::kGlobal, range);
+      assert_int_not_equal(first.status, SolveStatus::kNotConverged);
+      range.reserve_n = 0.0;
+      range.hold = 0.0;
+      range.taken = first.steps;
+      const McvSolution second = solve_mcv(valve, input, McvPolicy::kGlobal, range);
+      assert_int_not_equal(second.status, SolveStatus::kNotConverged);
+      slowed += first.point.lambda > 0.0 && first.point.lambda < 1.0 ? 1 : 0;
+    }
+  }
+  assert_true(slowed > 1000);
+}
