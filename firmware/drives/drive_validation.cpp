@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "firmware/core/whole.hpp"
 #include "firmware/drives/tuning.hpp"
 
 namespace graben {
@@ -17,7 +18,7 @@ double next_speed_mps(const AcceptedStroke& last, const Believed& newest) {
       to.stamp_us <= from.stamp_us) {
     return last.speed_mps;
   }
-  const double period_s = static_cast<double>(to.stamp_us - from.stamp_us) / kMicrosecondsPerSecond;
+  const double period_s = as_double(to.stamp_us - from.stamp_us) / kMicrosecondsPerSecond;
   const double share = std::min(1.0, period_s / kStrokeSpeed_s);
   return last.speed_mps + share * ((to.value - from.value) / period_s - last.speed_mps);
 }

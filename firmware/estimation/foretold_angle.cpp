@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "firmware/core/whole.hpp"
+
 namespace graben {
 
 Signal<double> foretold(const Signal<double>& shown, double latency_s, ForetoldAngle& state) {
@@ -20,7 +22,7 @@ Signal<double> foretold(const Signal<double>& shown, double latency_s, ForetoldA
   const TimeUs passed_us = shown.stamp_us - before.stamp_us;
   Signal<double> ahead = shown;
   if (before.known && passed_us > 0 && passed_us <= kForetoldLongest_us) {
-    ahead.value += latency_s * kSecondUs / static_cast<double>(passed_us) *
+    ahead.value += latency_s * kSecondUs / as_double(passed_us) *
                    (state.reading[0].angle_rad - before.angle_rad);
   }
   return ahead;

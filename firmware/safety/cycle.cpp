@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "firmware/core/whole.hpp"
 #include "firmware/safety/fault_table.hpp"
 #include "firmware/safety/tuning.hpp"
 
@@ -16,7 +17,7 @@ constexpr TimeUs kStalled_us = kMostCyclesLate * kCycle_us;
 
 /// The bucket a cycle on.
 TimeUs bucket_after(TimeUs late_us, TimeUs elapsed_us) {
-  const TimeUs left_us = late_us - std::max<TimeUs>(elapsed_us, 0) / kLateBucketLeak;
+  const TimeUs left_us = late_us - quotient(std::max<TimeUs>(elapsed_us, 0), kLateBucketLeak);
   const TimeUs filled_us =
       elapsed_us > kCycleLate_us ? std::min(elapsed_us, kStalled_us) - kCycle_us : 0;
   return std::max<TimeUs>(left_us, 0) + filled_us;
@@ -33,7 +34,7 @@ Fault first_of(std::initializer_list<Fault> faults) {
 TimeWatchResult watch_time(const TimeState& last, TimeUs now_us) {
   const TimeUs elapsed_us = last.has_stepped ? now_us - last.last_us : 0;
   TimeWatchResult result;
-  result.elapsed_s = static_cast<double>(std::clamp<TimeUs>(elapsed_us, 0, kStalled_us)) * 1e-6;
+  result.elapsed_s = as_double(std::clamp<TimeUs>(elapsed_us, 0, kStalled_us)) * 1e-6;
   result.period_s = std::min(result.elapsed_s, kLongestPeriod_s);
   result.state = {now_us, elapsed_us > kCycleLate_us ? std::min(last.late_cycles + 1, 2) : 0,
                   bucket_after(last.late_us, elapsed_us), true};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/core/whole.hpp"
+
 namespace graben {
 
 Freshness::Freshness(double timeout_s, TimeUs now_us)
@@ -24,7 +26,7 @@ namespace {
 
 bool jumps(const Signal<double>& next, const ChangeLimit& change, const Believed& last) {
   const TimeUs from_us = std::max(last.signal.stamp_us, last.seen_us);
-  const double elapsed_s = static_cast<double>(next.stamp_us - from_us) / kMicrosecondsPerSecond;
+  const double elapsed_s = as_double(next.stamp_us - from_us) / kMicrosecondsPerSecond;
   const double unexpected = next.value - last.signal.value - change.expected_ps * elapsed_s;
   return std::abs(unexpected) > change.most_ps * elapsed_s + change.margin;
 }

@@ -6,6 +6,7 @@
 
 #include "firmware/core/fault_set.hpp"
 #include "firmware/core/time.hpp"
+#include "firmware/core/whole.hpp"
 #include "firmware/signals/signal.hpp"
 
 namespace graben {
@@ -24,7 +25,7 @@ class Freshness {
   }
   /// Since then, s.
   [[nodiscard]] double age_s(TimeUs stamp_us) const {
-    return static_cast<double>(now_us_ - stamp_us) / kMicrosecondsPerSecond;
+    return as_double(now_us_ - stamp_us) / kMicrosecondsPerSecond;
   }
   template <class T>
   [[nodiscard]] bool holds(const Signal<T>& signal) const {

@@ -44,7 +44,7 @@ inline constexpr TimeUs kCycleLate_us = 15 * kMillisecondUs;
 inline constexpr TimeUs kLateBucket_us = 60 * kMillisecondUs;
 /// Part of the time that the bucket loses: one in so many. [-; chosen: up to a tenth of the time
 /// may be late for ever; not tried]
-inline constexpr TimeUs kLateBucketLeak = 10;
+inline constexpr std::int32_t kLateBucketLeak = 10;
 
 // Pilot pressure after a stop (cycle.cpp)
 

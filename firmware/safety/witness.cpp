@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/core/whole.hpp"
 #include "firmware/safety/plausibility.hpp"
 #include "firmware/safety/tuning.hpp"
 
@@ -11,7 +12,7 @@ namespace graben {
 namespace {
 
 double seconds(TimeUs from_us, TimeUs to_us) {
-  return static_cast<double>(to_us - from_us) / kMicrosecondsPerSecond;
+  return as_double(to_us - from_us) / kMicrosecondsPerSecond;
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ dbc::Payload encode_trouble(const Dm1Content& content) {
   message.spn_high = count(content.spn >> 16U);
   message.fmi = count(content.fmi);
   message.occurrence_count = count(content.occurrences);
-  return message.encode();
+  return SignalRows<dbc::MessageList<bus::DM1>>::encode(message);
 }
 
 }  // namespace graben

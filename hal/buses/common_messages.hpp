@@ -120,9 +120,9 @@ constexpr auto ecu_identity_row() {
 }
 
 /// A kind's table: `rows` most urgent first, and DM1.
-template <class Outputs, class... Rows>
-constexpr auto bus_send_table(const SendRow<Outputs>& first, const Rows&... rows) {
-  return send_table(dbc::common::DM1::kId, &encode_trouble, first, rows...);
+template <class... Rows>
+constexpr auto bus_send_table(const Rows&... rows) {
+  return send_table(dbc::common::DM1::kId, &encode_trouble, rows...);
 }
 
 }  // namespace graben

@@ -97,8 +97,8 @@ using OwnReceived =
     dbc::MessageList<bus::BladeStroke, bus::BodyPosition, bus::BodyPitch, bus::BodyVelocity,
                      bus::LeftTransmission, bus::RightTransmission, bus::TrackSpeed, bus::TiltState,
                      bus::BodyCourse, bus::ValveState, bus::DozerTry, bus::DozerWindow>;
-constexpr auto kReceiveTable = receive_table<DozerInputs, Store>(OwnReceived{}, CommonReceived{},
-                                                                 bus::kMessages, bus::kDbcVersion);
+constexpr auto kReceiveTable = receive_table<DozerInputs, Store>(
+    OwnReceived{}, CommonReceived{}, kBusMessages<bus::kMessages>, bus::kDbcVersion);
 
 bool may_move(const DozerOutputs& outputs) {
   bool finite = std::isfinite(outputs.blade_duty_ratio) && std::isfinite(outputs.tilt_duty_ratio);

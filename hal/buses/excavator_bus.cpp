@@ -156,7 +156,7 @@ using OwnReceived =
                      bus::SwingState, bus::SwingValveState, bus::OperatorAxes, bus::CommissionDuty,
                      bus::CommissionWindow, bus::SecondStrokes, bus::SecondSwing>;
 constexpr auto kReceiveTable = receive_table<ExcavatorInputs, Store>(
-    OwnReceived{}, CommonReceived{}, bus::kMessages, bus::kDbcVersion);
+    OwnReceived{}, CommonReceived{}, kBusMessages<bus::kMessages>, bus::kDbcVersion);
 
 bus::SpoolCommand spool_command(const ExcavatorOutputs& outputs, const EcuDiagnosis&) {
   bus::SpoolCommand message;  // its start values are Off, neutral and no cut

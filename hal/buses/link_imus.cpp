@@ -9,6 +9,7 @@ namespace graben {
 namespace {
 
 namespace bus = dbc::j1939;
+using Rows = SignalRows<dbc::MessageList<bus::ARI, bus::ACS>>;
 
 static_assert(ImuAddresses{}.size() == kImuCount, "an address for each");
 
@@ -83,17 +84,17 @@ bool LinkImus::take_extended(const CanFrame& frame, TimeUs now,
     (rates ? to[imu].rates.validity : to[imu].forces.validity) = Validity::kError;
     return true;
   }
-  const bus::ARI ari = bus::ARI::decode(frame.data);
-  const bus::ACS acs = bus::ACS::decode(frame.data);
-  if (rates ? !in_range(ari) : !in_range(acs)) {
+  UnreadMessage<bus::ARI> ari;
+  UnreadMessage<bus::ACS> acs;
+  if (rates ? !Rows::decode(frame.data, ari.message) : !Rows::decode(frame.data, acs.message)) {
     increment(counters_.out_of_range);
     return true;
   }
   increment(counters_.accepted);
   if (rates) {
-    to[imu].rates = rates_of(ari, now);
+    to[imu].rates = rates_of(ari.message, now);
   } else {
-    to[imu].forces = forces_of(acs, now);
+    to[imu].forces = forces_of(acs.message, now);
   }
   return true;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/core/whole.hpp"
 #include "firmware/numeric/triangle.hpp"
 
 namespace graben {
@@ -62,7 +63,7 @@ Signal<double> shown_by(const TableSource& source, const dbc::Payload& data, Tim
   if (dbc::says(source.missing_raw, source.bits.width, bits)) {
     return {0.0, Validity::kNotAvailable, now};
   }
-  return {static_cast<double>(raw) * source.scale + source.offset, Validity::kValid, now};
+  return {as_double(raw) * source.scale + source.offset, Validity::kValid, now};
 }
 
 /// A value that its sender does not say counts as right.
@@ -145,7 +146,7 @@ bool TableReceiver::take_known(const CanFrame& frame, TimeUs now, ExcavatorInput
     return true;
   }
   if (message.protection != TableProtection::kE2e &&
-      is_early(now, message.period_us * kPaceOf10 / 10, heard_[i].pace)) {
+      is_early(now, quotient(message.period_us * kPaceOf10, 10), heard_[i].pace)) {
     increment(early_);
     mark(i, Validity::kError, to);
     return true;
@@ -200,7 +201,7 @@ void TableReceiver::decode(std::size_t message, const dbc::Payload& data, TimeUs
                            ExcavatorInputs& to) {
   const TableMessage& rule = table_->message[message];
   Heard& heard = heard_[message];
-  const double passed_s = static_cast<double>(now - heard.last_us) / kSecond_us;
+  const double passed_s = as_double(now - heard.last_us) / kSecond_us;
   bool possible = true;
   for (std::size_t n = rule.first; n < std::size_t{rule.first} + rule.count; ++n) {
     const TableSource& source = table_->source[n];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/core/whole.hpp"
 #include "hal/buses/may_move.hpp"
 #include "hal/link/e2e.hpp"
 
@@ -60,7 +61,7 @@ double value_of(const TableSink& sink, const ExcavatorOutputs& outputs) {
 
 /// Of a constant the offset is the raw value.
 std::int64_t raw_value(const TableSink& sink, const ExcavatorOutputs& outputs) {
-  const auto span = static_cast<double>(std::int64_t{1} << sink.bits.width);
+  const auto span = as_double(std::int64_t{1} << sink.bits.width);
   const double least = sink.bits.is_signed ? -0.5 * span : 0.0;
   const double most = (sink.bits.is_signed ? 0.5 * span : span) - 1.0;
   const double raw = sink.place == SinkPlace::kConstant

@@ -15,8 +15,9 @@ constexpr TimeUs kShortestUs = 100 * kMillisecondUs;
 constexpr TimeUs kSlackUs = kCallUs / 2;  ///< A call may come early by that.
 
 TimeUs period_us(const FaultSet& active) {
-  const TimeUs share_us = kRoundUs / std::max<TimeUs>(active.count(), 1);
-  return std::max(share_us - share_us % kCallUs, kShortestUs);
+  // In 32 bits: a library divides those of a time.
+  const std::int32_t share_us = std::int32_t{kRoundUs} / std::max<std::int32_t>(active.count(), 1);
+  return std::max<TimeUs>(share_us - share_us % std::int32_t{kCallUs}, kShortestUs);
 }
 
 /// Whether at least `period_us` have passed. A clock that went back is no reason to fall silent.

@@ -38,7 +38,7 @@ struct ReceiveTable {
 
   std::array<MessageRule, count> rule{};
   std::array<Decode, count> decode{};
-  const dbc::MessageInfo* all = nullptr;  ///< All messages of the bus.
+  const BusMessage* all = nullptr;  ///< All messages of the bus.
   std::size_t all_count = 0;
   std::uint8_t dbc_version = 0;
 

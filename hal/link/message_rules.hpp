@@ -59,11 +59,31 @@ constexpr MessageRule message_rule(BusPart part) {
           part};
 }
 
+/// A message of a bus, whoever it is for: whose it is, and what protects it.
+struct BusMessage {
+  std::uint32_t id = 0;
+  std::uint16_t data_id = 0;
+  bool is_protected = false;
+};
+
+template <std::size_t count>
+constexpr std::array<BusMessage, count> bus_messages(
+    const std::array<dbc::MessageInfo, count>& infos) {
+  std::array<BusMessage, count> messages{};
+  for (std::size_t n = 0; n < count; ++n) {
+    messages[n] = {infos[n].id, infos[n].data_id, infos[n].is_protected};
+  }
+  return messages;
+}
+/// Of a database's list `infos`, without the names in it, which no controller asks for.
+template <const auto& infos>
+inline constexpr auto kBusMessages = bus_messages(infos);
+
 /// The rules of a receiver, and all messages of its bus; both have to outlive what uses them.
 struct MessageRules {
   const MessageRule* rule = nullptr;
   std::size_t count = 0;
-  const dbc::MessageInfo* all = nullptr;
+  const BusMessage* all = nullptr;
   std::size_t all_count = 0;
 };
 

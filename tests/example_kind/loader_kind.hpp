@@ -47,7 +47,7 @@ inline dbc::loader::SpoolCommand loader_command(const LoaderOutputs& outputs, co
 inline constexpr auto kLoaderReceives = receive_table<LoaderInputs, LoaderStore>(
     dbc::MessageList<dbc::loader::LiftCylinder, dbc::loader::TiltCylinder,
                      dbc::loader::ValveState>{},
-    CommonReceived{}, dbc::loader::kMessages, dbc::loader::kDbcVersion);
+    CommonReceived{}, kBusMessages<dbc::loader::kMessages>, dbc::loader::kDbcVersion);
 inline constexpr auto kLoaderSends =
     bus_send_table(send_row<LoaderOutputs, dbc::loader::SpoolCommand, loader_command>(0),
                    ecu_status_row<LoaderOutputs>(), ecu_health_row<LoaderOutputs>(),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "firmware/core/whole.hpp"
 #include "firmware/excavator/inputs/tuning.hpp"
 #include "firmware/excavator/kinematics/bucket_linkage.hpp"
 #include "firmware/excavator/kinematics/tuning.hpp"
@@ -87,7 +88,7 @@ bool take_reading(const ImuProfile& profile, const AngleNoise& noise, const ImuI
   }
   const double said_s = imu.rates.value.latency_s;
   const double latency_s = said_s < 0.0 ? profile.latency_s : said_s;
-  const double period_s = static_cast<double>(stamp_us - state.stamp_us[index]) / kSecondUs -
+  const double period_s = as_double(stamp_us - state.stamp_us[index]) / kSecondUs -
                           (latency_s - state.latency_s[index]);
   const AngleReading reading = reading_of(profile.mount[index], imu, period_s, link.angle_rad);
   state.stamp_us[index] = stamp_us;
