@@ -9,6 +9,7 @@ namespace graben {
 /// The nearest double of a whole number, made of two halves: what as_double() is where a library
 /// would do it, larger and slower.
 [[nodiscard]] constexpr double double_by_halves(std::int64_t number) {
+  /// Of one bit of the upper half. [-; derived: 2^32]
   constexpr double kUpperHalf = 4294967296.0;
   // Both halves are exact, so that the sum alone rounds.
   return static_cast<double>(static_cast<std::int32_t>(number >> 32U)) * kUpperHalf +
@@ -20,7 +21,8 @@ namespace graben {
   return static_cast<std::int64_t>(double_by_halves(number) / static_cast<double>(by));
 }
 
-/// Whether a register holds 64 bits: a processor's own instructions are the cheapest then.
+/// Whether a register holds 64 bits: a processor's own instructions are the cheapest
+/// then. [-; derived: size of a pointer]
 inline constexpr bool kWideRegisters = sizeof(void*) >= sizeof(std::int64_t);
 
 [[nodiscard]] constexpr double as_double(std::int64_t number) {

@@ -21,10 +21,10 @@ RawState state_beyond(const SignalScale& scale, std::uint32_t raw) {
   return top == scale.error_top ? RawState::kError : RawState::kNotAvailable;
 }
 
-/// 'Error', or the start value where the signal can't say it.
+/// 'Error', or the start value where the signal can't say it: 0 (rows::fits).
 std::uint32_t refused_raw(const SignalScale& scale) {
   return scale.error_top == SignalScale::kNoSpecials
-             ? scale.instead_raw
+             ? 0U
              : scale.mask - (std::uint32_t{1} << scale.top_shift);
 }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <type_traits>
 
 #include "can_dbc/codec.hpp"
@@ -24,8 +23,6 @@ struct SignalScale {
   std::int32_t raw_offset = 0;
   std::uint32_t raw_min = 0;
   std::uint32_t raw_max = 0;
-  std::uint32_t instead_raw =
-      0;                        ///< Sent in the place of what a signal without specials can't say.
   std::uint32_t mask = 0;       ///< Of the signal's width.
   std::uint16_t error_top = 0;  ///< The first bits of 'error'; kNoSpecials: it has none.
   std::uint8_t top_shift = 0;   ///< Bits below the first ones.
@@ -36,8 +33,7 @@ struct SignalScale {
 constexpr bool operator==(const SignalScale& a, const SignalScale& b) {
   return a.numerator == b.numerator && a.denominator == b.denominator &&
          a.raw_offset == b.raw_offset && a.raw_min == b.raw_min && a.raw_max == b.raw_max &&
-         a.instead_raw == b.instead_raw && a.mask == b.mask && a.error_top == b.error_top &&
-         a.top_shift == b.top_shift;
+         a.mask == b.mask && a.error_top == b.error_top && a.top_shift == b.top_shift;
 }
 
 /// What a member of a message is.
@@ -89,7 +85,6 @@ constexpr SignalScale scale_of(const dbc::Field& field) {
   const bool specials = field.error_raw >= 0;
   scale.error_top = specials ? static_cast<std::uint16_t>((scale.mask >> scale.top_shift) - 1U)
                              : SignalScale::kNoSpecials;
-  scale.instead_raw = specials ? 0U : field.start_raw;
   return scale;
 }
 
@@ -101,11 +96,17 @@ constexpr bool fits(const dbc::Field& field, SignalKind kind) {
   const bool special = field.error_raw == all - (std::int64_t{1} << scale.top_shift) &&
                        field.not_available_raw == all &&
                        (field.raw_max >> scale.top_shift) < scale.error_top;
-  const bool none = field.error_raw < 0 && field.not_available_raw < 0;
+  const bool none = field.error_raw < 0 && field.not_available_raw < 0 && field.start_raw == 0;
   const std::int64_t most = std::int64_t{field.raw_max} + field.raw_offset;
   return (special || none) &&
          (kind != SignalKind::kPhysical || (field.raw_max <= INT32_MAX && most <= INT32_MAX)) &&
          (kind != SignalKind::kCoded || field.raw_max <= UINT8_MAX);
+}
+
+template <class Message, class Visitor>
+constexpr void visit_start(const Visitor& visitor) {
+  const Message message{};
+  Message::visit(message, visitor);
 }
 
 template <class Message>
@@ -142,8 +143,7 @@ template <class... Messages>
 constexpr auto scales_of(dbc::MessageList<Messages...>) {
   Scales<(count_of<Messages>() + ...)> all;
   const auto add = [&all](const dbc::Field& field, const auto&) { all.add(scale_of(field)); };
-  const std::tuple<Messages...> message{};
-  (Messages::visit(std::get<Messages>(message), add), ...);
+  (visit_start<Messages>(add), ...);
   return all;
 }
 
@@ -175,7 +175,6 @@ struct SignalRows {
   /// Members lie in the order of the fields, each where its alignment allows.
   template <class Message>
   static constexpr auto made() {
-    static_assert(std::is_standard_layout_v<Message>);
     struct {
       std::array<SignalRow, rows::count_of<Message>()> row{};
       std::size_t end = 0;
