@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Machines that the controller is not told: cells.py GRABEN [--fine | --map | --cell OIL EXPONENT DEAD_BAND]
-[--speed S] [--law LAW] [--jobs N]
+[--profile MACHINE] [--speed S]
+[--law LAW] [--dead-time S] [--later S] [--jobs N]
 digs the dry path, without any other error, on simulated machines whose oil, opening exponent and dead band
 are each cell's, and prints a row a cell: how it ended, largest distance of the true tip from the path,
 ringing (rms above 1 Hz), and how far the learnt ends of the dead bands are from the true ones.
@@ -46,10 +47,10 @@ def share_of_speed(text):
     return share
 
 
-def run(graben, cell, how, folder):
+def run(graben, cell, how, also, folder):
     name = folder / "_".join(map(str, cell))
     summary = pathlib.Path(f"{name}.json")
-    done = subprocess.run([graben, "dig", *how, "--found", found(cell), "--out", str(name), "--summary", str(summary)],
+    done = subprocess.run([graben, "dig", *how, "--found", found(cell) + also, "--out", str(name), "--summary", str(summary)],
                           capture_output=True, text=True, check=False)
     if done.returncode not in (0, 1) or not summary.exists():
         raise RuntimeError(f"{found(cell)}: status {done.returncode}: {done.stderr.strip()[-300:]}")
@@ -78,17 +79,23 @@ def main():
     parser.add_argument("--speed", type=share_of_speed, default=1.0, metavar="S", help="of the full one, 0.05 .. 1")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--law", help="the profile's unless told")
+    parser.add_argument("--profile", default="excavator_22t", help="of an excavator (excavator_22t)")
+    parser.add_argument("--dead-time", type=float, metavar="S", help="of every spool, told; the profile's unless told")
+    parser.add_argument("--later", type=float, metavar="S", help="by so much it is longer than told")
     parser.add_argument("--most-error", type=float, default=50.0, metavar="MM")
     parser.add_argument("--most-ringing", type=float, default=3.0, metavar="MM")
     parser.add_argument("--most-edge", type=float, default=3.0, metavar="PERCENT")
     parser.add_argument("--may-miss", type=int, default=0, metavar="CELLS")
     options = parser.parse_args()
-    how = ("--speed", str(options.speed), *(("--law", options.law) if options.law else ()))
+    how = ["--profile", options.profile, "--speed", str(options.speed)]
+    how += ["--law", options.law] if options.law else []
+    how += ["--dead-time", str(options.dead_time)] if options.dead_time is not None else []
+    also = "" if options.later is None else f",dead_time={options.later}"
     every = FINE if options.fine else MAP if options.map else COARSE
     cells = [tuple(cell) for cell in options.cell] if options.cell else list(itertools.product(*every))
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         try:
-            rows = list(pool.map(lambda cell: run(options.graben, cell, how, pathlib.Path(folder)), cells))
+            rows = list(pool.map(lambda cell: run(options.graben, cell, how, also, pathlib.Path(folder)), cells))
         except RuntimeError as error:
             print(f"cells.py: {error}", file=sys.stderr)
             sys.exit(2)
