@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/excavator/outputs/outputs.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/excavator/outputs/tuning.hpp"
 #include "firmware/excavator/tuning.hpp"
 
 namespace graben {
@@ -90,17 +94,34 @@ GateResult send(const ExcavatorModel& machine, const ExcavatorValid& valid, bool
   return gated;
 }
 
+/// Of each pump's drives, the largest share that one lacks of its wanted speed, as guards leave it.
+PerPump<double> short_shares(const ExcavatorModel& machine, const InputState& inputs,
+                             const Motion& motion) {
+  PerPump<double> lacks{};
+  for (int i = 0; i < kAxisCount; ++i) {
+    const auto k = static_cast<unsigned>(i);
+    const double wanted_mps = motion.cap.factor * motion.wanted_mps[i];
+    if (wanted_mps != 0.0) {
+      const double share = 1.0 - inputs.accepted[k].speed_mps / wanted_mps;
+      const double counts = std::abs(wanted_mps) / (std::abs(wanted_mps) + kShortHalf_mps);
+      double& most = lacks[static_cast<unsigned>(machine.valve.actuator[k].pump)];
+      most = std::max(most, counts * std::clamp(share, 0.0, 1.0));
+    }
+  }
+  return lacks;
+}
+
 /// Swash for what is wanted in this cycle.
 void demand_pumps(const ExcavatorModel& machine, const ExcavatorValid& valid,
                   const InputState& inputs, const EstimationState& estimates, const Motion& motion,
                   bool active, double period_s, const LastCycle& last, PumpDemand& pumps) {
   const ExcavatorProfile& profile = machine.profile;
   const auto& blocked = inputs.watch.drives.blocked;
-  next_pump_demand(
-      profile, machine.valve,
-      {valve_input(machine, motion.wanted_mps, valid, estimates), last.flow.line_pa,
-       valid.engine_radps, active && !motion.tries, any_blocked(blocked) || any_wary(blocked)},
-      period_s, pumps);
+  next_pump_demand(profile, machine.valve,
+                   {valve_input(machine, motion.wanted_mps, valid, estimates), last.flow.line_pa,
+                    valid.engine_radps, short_shares(machine, inputs, motion),
+                    active && !motion.tries, any_blocked(blocked) || any_wary(blocked)},
+                   period_s, pumps);
   if (active && motion.tries && profile.demand_swash.most_ratio > 0.0) {
     // With less, a load that takes all that a line has hides how its valve opens.
     for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {

@@ -31,6 +31,7 @@ void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, 
                       double period_s, PumpDemand& demand) {
   if (!ask.active || !(profile.demand_swash.most_ratio > 0.0)) {
     demand.swash_ratio = profile.dig_swash_ratio;
+    demand.short_ratio = {};
     return;
   }
   double most_pa = profile.pump[0].relief_pa;
@@ -48,8 +49,13 @@ void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, 
     const double most_ratio =
         ask.blocked ? std::min(profile.dig_swash_ratio[j], profile.demand_swash.most_ratio)
                     : profile.demand_swash.most_ratio;
-    const double wanted = std::min(
-        std::max(flow_m3ps[j] / full_m3ps[j], profile.demand_swash.least_ratio), most_ratio);
+    double& lacks = demand.short_ratio[j];
+    const double short_of = std::max(0.0, ask.short_share[j] - kShortFrom);
+    lacks =
+        std::clamp(lacks + period_s * (kShortUp_ps * short_of - kShortDown_ps), 0.0, kShortMost);
+    const double wanted =
+        std::min(std::max(flow_m3ps[j] / full_m3ps[j], profile.demand_swash.least_ratio) + lacks,
+                 most_ratio);
     double& swash = demand.swash_ratio[j];
     swash = std::clamp(swash, profile.demand_swash.least_ratio, profile.demand_swash.most_ratio);
     swash = std::clamp(wanted, swash - down_ps * period_s, swash + kSwashUp_ps * period_s);

@@ -11,6 +11,8 @@ namespace graben {
 /// State from cycle to cycle.
 struct PumpDemand {
   std::array<double, kPumpCount> swash_ratio{};  ///< Last commanded.
+  /// More than the model says: its drives fall short, as where a bypass is more open than it says.
+  std::array<double, kPumpCount> short_ratio{};
 };
 
 /// What the pumps are asked for.
@@ -18,6 +20,7 @@ struct PumpAsk {
   McvInput input;             ///< The wanted speeds without corrections, and filtered loads.
   PerPump<double> line_pa{};  ///< What each line is expected to be at.
   double engine_radps = 0.0;
+  PerPump<double> short_share{};  ///< Of the wanted speed, of the drive that lacks most of it.
   bool active = false;
   bool blocked = false;  ///< A load holds a drive: more flow would only squeeze more oil.
 };

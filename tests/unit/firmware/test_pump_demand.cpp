@@ -98,6 +98,7 @@ struct Digging {
   PumpDemand demand;
   double engine_radps = profile.pump[0].rated_speed_radps;
   PerPump<double> line_pa{};
+  PerPump<double> short_share{};
   bool blocked = false;
 
   Digging() {
@@ -106,8 +107,8 @@ struct Digging {
     step(false);
   }
   void step(bool active = true) {
-    next_pump_demand(profile, valve(), {input, line_pa, engine_radps, active, blocked}, kPeriod_s,
-                     demand);
+    next_pump_demand(profile, valve(), {input, line_pa, engine_radps, short_share, active, blocked},
+                     kPeriod_s, demand);
   }
   double settled(unsigned pump) {
     repeat(2000, [&] { step(); });
@@ -142,6 +143,29 @@ TEST(the_swash_goes_by_what_is_needed) {
   rock.profile.demand_swash = {};
   rock.step();
   assert_true(rock.demand.swash_ratio == shipped().dig_swash_ratio);
+}
+
+/// The pump of a drive that goes much slower than it should gives more than the model asks for, to
+/// a bound; what is a little slow does not count, and what was added goes again.
+TEST(a_drive_that_falls_short_gets_more, Digging digging) {
+  const double light = digging.settled(0);
+  const double other = digging.settled(1);
+  digging.short_share[0] = 0.3;
+  assert_near(digging.settled(0), light, 1e-9);
+  digging.short_share[0] = 1.0;
+  repeat(50, [&] { digging.step(); });
+  assert_near(digging.demand.short_ratio[0], 0.25, 0.02);
+  assert_near(digging.settled(0), light + 0.35, 1e-9);
+  assert_near(digging.demand.swash_ratio[1], other, 1e-9);
+  digging.short_share = {};
+  repeat(100, [&] { digging.step(); });
+  assert_near(digging.demand.short_ratio[0], 0.25, 0.02);
+  assert_near(digging.settled(0), light, 1e-9);
+  digging.short_share[0] = 1.0;
+  digging.settled(0);
+  digging.step(false);
+  digging.step();
+  assert_true(digging.demand.short_ratio[0] < 0.02);
 }
 
 /// Up fast, down slowly.
