@@ -22,6 +22,9 @@ constexpr double kMost_s = 90.0;
 constexpr double kRest_s = 1.5;
 constexpr double kStands_mps = 0.02;
 constexpr double kWave_hz = 0.5;
+/// The edge stands where it stays so near to where it comes to rest within so long.
+constexpr double kHalted_m = 0.015;
+constexpr double kRests_s = 0.5;
 
 /// What is faster than a frequency, of two poles (Butterworth), bilinear.
 class HighPass {
@@ -103,6 +106,7 @@ class AssistRun {
       : options_(options),
         kinematics_(machine.profile.geometry),
         way_(way_of(machine.profile, options)),
+        fastest_(machine, way_, options.record == LeverRecord::kThird ? 1.0 / 3.0 : 1.0),
         start_m_(kinematics_.strokes_from_pose(way_.at(0.5 * way_.length_m())).strokes_m),
         noise_(options.seed),
         rig_(machine,
@@ -228,14 +232,14 @@ class AssistRun {
     }
     if (works && lever_now != 0.0 && std::abs(at_m - from_m_) > kOnto_m) {
       took_s_ += kPeriod_s;
-      fastest_s_ += std::abs(at_m - last_m_) /
-                    fastest_mps(rig_.setup.profile, kinematics_, way_, at_m, lever_now);
+      fastest_s_ += std::abs(at_m - last_m_) / fastest_.mps(at_m, phase_ == Phase::kIn);
     }
     on_s_ = std::abs(lever_now) > 0.3 ? on_s_ + kPeriod_s : 0.0;
     if (works && on_s_ > 0.5 && speed_mps < 0.01 && status.limit.kind == LimitKind::kNone) {
       summary_.unsaid_s += kPeriod_s;
     }
     watch_stop(lever_now, off_m, speed_mps);
+    watch_halt(lever_now, teeth_m);
     last_m_ = at_m;
     last_lever_ = lever_now;
   }
@@ -255,7 +259,29 @@ class AssistRun {
     }
   }
 
+  /// A rest that is too short to be one says nothing.
+  void watch_halt(double lever_now, const Eigen::Vector3d& teeth_m) {
+    if (lever_now == 0.0 && phase_ != Phase::kDone && (!let_go_m_.empty() || last_lever_ != 0.0)) {
+      let_go_m_.push_back(teeth_m);
+    } else {
+      end_halt();
+    }
+  }
+
+  void end_halt() {
+    if (static_cast<double>(let_go_m_.size()) * kPeriod_s > kRests_s) {
+      std::size_t n = let_go_m_.size();
+      while (n > 0 && (let_go_m_[n - 1] - let_go_m_.back()).norm() <= kHalted_m) {
+        --n;
+      }
+      halt_s_ = std::max(std::isnan(halt_s_) ? 0.0 : halt_s_, static_cast<double>(n) * kPeriod_s);
+    }
+    let_go_m_.clear();
+  }
+
   void summarise() {
+    end_halt();
+    summary_.halt_s = halt_s_;
     summary_.rmse_m = off_.rms();
     summary_.most_off_m = most_off_m_;
     summary_.over_cut_m = over_cut_m_;
@@ -270,6 +296,7 @@ class AssistRun {
   const AssistOptions& options_;
   ExcavatorKinematics kinematics_;
   Way way_;
+  FastestByFlow fastest_;
   Eigen::Vector3d start_m_;
   HandNoise noise_;
   ExcavatorRig rig_;
@@ -285,6 +312,8 @@ class AssistRun {
   double fastest_s_ = 0.0;
   double stop_s_ = 0.0;
   double stop_off_m_ = 0.0;
+  double halt_s_ = kAbsent;
+  std::vector<Eigen::Vector3d> let_go_m_;  ///< The edge in each cycle since.
   double most_off_m_ = 0.0;
   double over_cut_m_ = 0.0;
   double last_lever_ = 0.0;
@@ -311,8 +340,10 @@ const FigureTable<AssistSummary>& assist_figures() {
        [](const S& s) { return s.wave_rms_m; }},
       {{"time_ratio", "time over the fastest by flow", kRatio, "time_ratio"},
        [](const S& s) { return s.time_ratio; }},
-      {{"stop_s", "from letting go to standstill, max", kSeconds, "stop_s"},
+      {{"stop_s", "from letting go until below 20 mm/s, max", kSeconds, "stop_s"},
        [](const S& s) { return s.stop_s; }},
+      {{"halt_s", "from letting go until 15 mm from its rest, max", kSeconds, "halt_s"},
+       [](const S& s) { return s.halt_s; }},
       {{"stop_off_m", "off the design from then on, max", kMillimetres, "stop_off_m"},
        [](const S& s) { return s.stop_off_m; }},
       {{"unsaid_s", "stood without a limit told", kSeconds, "unsaid_s"},

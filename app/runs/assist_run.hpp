@@ -60,10 +60,13 @@ struct AssistSummary {
   double most_off_m = kAbsent;
   double over_cut_m = kAbsent;  ///< Under the design; 0: none.
   double wave_rms_m = kAbsent;  ///< Of what changes faster than 0.5 Hz.
-  /// Over the fastest that the arm's lever, the drives' and the pumps' flow allow, on the way in
-  /// and out; of records in which the lever stands still.
+  /// Over the fastest that the arm's lever, the drives' and the pumps' flow allow (FastestByFlow),
+  /// on the way in and out; of records in which the lever stands still.
   double time_ratio = kAbsent;
-  double stop_s = kAbsent;      ///< From letting go until the edge stands, longest.
+  /// From letting go until the edge moves no faster than 20 mm/s, its links' ringing too, longest.
+  double stop_s = kAbsent;
+  /// From letting go until it stays within 15 mm of where it comes to rest, longest.
+  double halt_s = kAbsent;
   double stop_off_m = kAbsent;  ///< Off the design from letting go on, farthest.
   double unsaid_s = 0.0;        ///< It stood with the lever on and no limit was told.
   double fault = 0.0;           ///< Code of that which stopped it; 0: none.

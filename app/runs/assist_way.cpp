@@ -2,12 +2,14 @@
 #include "app/runs/assist_way.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
+#include "app/plant/excavator_plant.hpp"
+#include "firmware/excavator/excavator_drives.hpp"
 #include "firmware/excavator/motion/program/drive_plan.hpp"
-#include "firmware/numeric/constants.hpp"
+#include "firmware/hydraulics/flow.hpp"
+#include "firmware/mcv/optimiser.hpp"
 
 namespace graben::runs {
 namespace {
@@ -97,33 +99,45 @@ Way way_of(const ExcavatorProfile& profile, const AssistOptions& options) {
   return way;
 }
 
-double fastest_mps(const ExcavatorProfile& profile, const ExcavatorKinematics& kinematics,
-                   const Way& way, double out_m, double lever) {
-  const Eigen::Vector2d out = way.tangent(out_m);
-  const Eigen::Vector2d along = out * (lever > 0.0 ? -1.0 : 1.0);
-  const PathMotion motion =
-      kinematics.motion_from_pose(way.at(out_m), {along.x(), along.y(), 0.0}, {});
-  const DriveLimits limits = drive_limits(profile);
-  double most_mps = 1e3;
-  std::array<double, kPumpCount> area_m2{};
-  for (unsigned i = 0; i < kAxisCount; ++i) {
-    const double rate = motion.strokes_rate[static_cast<int>(i)];
-    const double share = i == kArm ? std::abs(lever) : 1.0;
-    const double limit_mps = i == kArm || rate > 0.0 ? limits.speed_out[i] : limits.speed_in[i];
-    most_mps = std::min(most_mps, share * limit_mps / std::abs(rate));
-    const SpoolProfile& spool = profile.valve.spool[i];
-    const bool regenerates =
-        spool.regeneration == (rate > 0.0 ? RegenerationSide::kExtend : RegenerationSide::kRetract);
-    const CylinderGeometry& cylinder = profile.geometry.cylinder[i];
-    const double side_m2 = rate > 0.0 ? cylinder.cap_area_m2() : cylinder.rod_area_m2();
-    area_m2[static_cast<unsigned>(spool.pump)] += regenerates ? 0.0 : side_m2 * std::abs(rate);
-  }
+FastestByFlow::FastestByFlow(const machines::SimulatedExcavator& machine, const Way& way,
+                             double lever)
+    : step_m_(way.length_m() / kPlaces) {
+  const ExcavatorProfile& profile = machine.profile;
+  const ExcavatorKinematics kinematics(profile.geometry);
+  const McvMachine valve = mcv_machine(profile);
+  const double arm_mps = lever * drive_limits(profile).speed_out[kArm];
+  PerPump<double> full_m3ps{};
   for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
-    const PumpProfile& pump = profile.pump[j];
-    const double flow_m3ps = pump.displacement_m3prev / kTwoPi * pump.rated_speed_radps;
-    most_mps = area_m2[j] > 0.0 ? std::min(most_mps, flow_m3ps / area_m2[j]) : most_mps;
+    full_m3ps[j] = pump_flow_m3ps(profile.pump[j], profile.pump[j].rated_speed_radps, 1.0);
   }
-  return most_mps * out.dot(way.along());
+  for (std::size_t k = 0; k <= kPlaces; ++k) {
+    const double out_m = step_m_ * static_cast<double>(k);
+    const Eigen::Vector2d out = way.tangent(out_m);
+    const PathMotion motion =
+        kinematics.motion_from_pose(way.at(out_m), {out.x(), out.y(), 0.0}, {});
+    const Eigen::Vector3d& at_m = motion.strokes_m;
+    const plant::ExcavatorPlant rests(machine.plant, {at_m[0], at_m[1], at_m[2]});
+    for (std::size_t way_in = 0; way_in < mps_.size(); ++way_in) {
+      // Extending, the arm draws in; outwards is positive.
+      const double edge_mps = (way_in == 1 ? arm_mps : -arm_mps) / motion.strokes_rate[kArm];
+      McvInput input;
+      input.pump_flow_m3ps = full_m3ps;
+      for (unsigned i = 0; i < kAxisCount; ++i) {
+        input.velocity_mps[i] = edge_mps * motion.strokes_rate[static_cast<int>(i)];
+        input.cap_pressure_pa[i] = rests.cap_pressures_pa()[i];
+        input.rod_pressure_pa[i] = rests.rod_pressures_pa()[i];
+      }
+      const McvSolution best = solve_mcv(valve, input, McvPolicy::kGlobal);
+      mps_[way_in][k] = best.point.lambda * std::abs(edge_mps) * std::abs(out.dot(way.along()));
+    }
+  }
+}
+
+double FastestByFlow::mps(double out_m, bool inwards) const {
+  const double at = std::clamp(out_m / step_m_, 0.0, static_cast<double>(kPlaces) - 1e-9);
+  const auto k = static_cast<std::size_t>(at);
+  const auto& mps = mps_[inwards ? 1 : 0];
+  return mps[k] + (at - static_cast<double>(k)) * (mps[k + 1] - mps[k]);
 }
 
 }  // namespace graben::runs

@@ -3,6 +3,7 @@
 /// The way of an operator's edge along a design that is tried, in the plane of the boom.
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 
 #include "app/runs/assist_run.hpp"
@@ -33,10 +34,23 @@ struct Way {
 /// std::runtime_error where the machine can't hold its bucket there.
 [[nodiscard]] Way way_of(const ExcavatorProfile& profile, const AssistOptions& options);
 
-/// Fastest, by `length_m`, along the way that drives and pumps allow with the arm's lever at
-/// `lever`, 1: full. What regenerates takes no flow from its pump.
-[[nodiscard]] double fastest_mps(const ExcavatorProfile& profile,
-                                 const ExcavatorKinematics& kinematics, const Way& way,
-                                 double out_m, double lever);
+/// Fastest along a way that the machine's hydraulics allow while the arm's lever stands still: the
+/// lever's own speed of the arm, or less where a pump's flow, less what its bypass and its leak
+/// take at the pressure that the hardest load needs, or a fully open spool lets no more through.
+/// Loads are those of the true machine at rest in each place; there is no reserve and no
+/// acceleration.
+class FastestByFlow {
+ public:
+  /// `lever`: of the arm, above 0, 1: full; both ways along are looked at.
+  FastestByFlow(const machines::SimulatedExcavator& machine, const Way& way, double lever);
+
+  /// By `length_m`; `inwards`: to the machine.
+  [[nodiscard]] double mps(double out_m, bool inwards) const;
+
+ private:
+  static constexpr std::size_t kPlaces = 24;
+  double step_m_ = 0.0;
+  std::array<std::array<double, kPlaces + 1>, 2> mps_{};
+};
 
 }  // namespace graben::runs

@@ -86,6 +86,10 @@ void hold_back(const ExcavatorModel& machine, const ExcavatorValid& valid, const
   park_spools(machine, valid, estimates, period_s, last, motion, state);
 }
 
+double reserve_ratio(const Motion& motion) {
+  return motion.hand.assist == AssistState::kHolds ? kAssistReserve : 1.0;
+}
+
 Followed flow_limited(const ExcavatorModel& machine, const ExcavatorValid& valid,
                       const EstimationState& estimates, const Motion& motion, double period_s,
                       const LastCycle& last) {
@@ -97,8 +101,10 @@ Followed flow_limited(const ExcavatorModel& machine, const ExcavatorValid& valid
     }
   };
   scale_to(motion.cap.factor, motion.wanted_mps);
-  Followed followed{steady_lambda(machine.valve, input, control.lambda_policy, control.lambda_rise,
-                                  last.flow.lambda, period_s)};
+  LambdaRise rise = control.lambda_rise;
+  rise.reserve_n *= reserve_ratio(motion);
+  Followed followed{
+      steady_lambda(machine.valve, input, control.lambda_policy, rise, last.flow.lambda, period_s)};
   followed.lambda = followed.solution.point.lambda;
   const double of_path = followed.lambda;
   if (!machine.profile.bus.pressures) {

@@ -44,6 +44,9 @@ struct Followed {
                                  double period_s, const LastCycle& last, Motion& motion,
                                  LimitState& state);
 
+/// Factor on control.lambda_rise_reserve that this motion wants.
+[[nodiscard]] double reserve_ratio(const Motion& motion);
+
 /// How fast that may be followed, by the pumps' flow.
 [[nodiscard]] Followed flow_limited(const ExcavatorModel& machine, const ExcavatorValid& valid,
                                     const EstimationState& estimates, const Motion& motion,

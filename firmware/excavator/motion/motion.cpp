@@ -137,6 +137,7 @@ void steer(const Known& of, const HandState& hand, Motion& motion) {
   motion.fences = placed(fences, of.last.site);
   HandAsk ask = hand_ask(valid);
   if (valid.task == Task::kAssist) {
+    ask.mode_radps = of.estimates.modes.omega_radps[0];
     look_at_design(of, hand, has_design(fences) && of.last.site.is_lost(), ask, motion);
   }
   const double lambda = of.last.flow.lambda;

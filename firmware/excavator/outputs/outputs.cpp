@@ -120,7 +120,8 @@ void demand_pumps(const ExcavatorModel& machine, const ExcavatorValid& valid,
   next_pump_demand(profile, machine.valve,
                    {valve_input(machine, motion.wanted_mps, valid, estimates), last.flow.line_pa,
                     valid.engine_radps, short_shares(machine, inputs, motion),
-                    active && !motion.tries, any_blocked(blocked) || any_wary(blocked)},
+                    active && !motion.tries, any_blocked(blocked) || any_wary(blocked),
+                    reserve_ratio(motion)},
                    period_s, pumps);
   if (active && motion.tries && profile.demand_swash.most_ratio > 0.0) {
     // With less, a load that takes all that a line has hides how its valve opens.

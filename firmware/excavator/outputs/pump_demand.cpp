@@ -38,9 +38,10 @@ void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, 
   for (int j = 1; j < profile.pump_count; ++j) {
     most_pa = std::min(most_pa, profile.pump[static_cast<unsigned>(j)].relief_pa);
   }
-  const PerPump<double> flow_m3ps = needed_flow_m3ps(
-      valve, ask.input,
-      {1.0, profile.control.lambda_rise.reserve_n, kPumpLoadShare, kPumpReliefShare * most_pa});
+  const PerPump<double> flow_m3ps =
+      needed_flow_m3ps(valve, ask.input,
+                       {1.0, ask.reserve_ratio * profile.control.lambda_rise.reserve_n,
+                        kPumpLoadShare, kPumpReliefShare * most_pa});
   const double turning_radps = std::max(ask.engine_radps, profile.safety.idle_radps);
   PerPump<double> full_m3ps{};
   const double down_ps = ask.blocked ? kSwashUp_ps : kSwashDown_ps;

@@ -22,7 +22,8 @@ struct PumpAsk {
   double engine_radps = 0.0;
   PerPump<double> short_share{};  ///< Of the wanted speed, of the drive that lacks most of it.
   bool active = false;
-  bool blocked = false;  ///< A load holds a drive: more flow would only squeeze more oil.
+  bool blocked = false;        ///< A load holds a drive: more flow would only squeeze more oil.
+  double reserve_ratio = 1.0;  ///< On control.lambda_rise_reserve, see reserve_ratio().
 };
 
 /// A cycle on. Not active, and where the profile has no range for it, the swash is that of the

@@ -100,6 +100,7 @@ struct Digging {
   PerPump<double> line_pa{};
   PerPump<double> short_share{};
   bool blocked = false;
+  double reserve_ratio = 1.0;
 
   Digging() {
     input.velocity_mps = {0.05, 0.1, 0.02, 0.0};
@@ -107,7 +108,8 @@ struct Digging {
     step(false);
   }
   void step(bool active = true) {
-    next_pump_demand(profile, valve(), {input, line_pa, engine_radps, short_share, active, blocked},
+    next_pump_demand(profile, valve(),
+                     {input, line_pa, engine_radps, short_share, active, blocked, reserve_ratio},
                      kPeriod_s, demand);
   }
   double settled(unsigned pump) {
@@ -115,6 +117,22 @@ struct Digging {
     return demand.swash_ratio[pump];
   }
 };
+
+/// A motion that wants twice the reserve gets the flow that a profile with such a reserve asks for.
+TEST(a_motion_may_want_more_reserve) {
+  Digging usual;
+  Digging twice;
+  Digging told;
+  twice.reserve_ratio = 2.0;
+  told.profile.control.lambda_rise.reserve_n *= 2.0;
+  for (int n = 0; n < 200; ++n) {
+    usual.step();
+    twice.step();
+    told.step();
+  }
+  assert_true(twice.demand.swash_ratio == told.demand.swash_ratio);
+  assert_true(twice.demand.swash_ratio[0] > usual.demand.swash_ratio[0] + 0.01);
+}
 
 double profile_most() { return shipped().demand_swash.most_ratio; }
 

@@ -7,6 +7,7 @@
 #include "firmware/excavator/motion/hand/tuning.hpp"
 #include "firmware/excavator/motion/program/drive_plan.hpp"
 #include "firmware/excavator/swing.hpp"
+#include "firmware/numeric/constants.hpp"
 
 namespace graben {
 namespace {
@@ -56,6 +57,13 @@ HandSpeed softened(const HandRange& range, bool leads, const HandSpeed& target, 
     change[i] = std::clamp(change[i], -most, most);
   }
   return last + change;
+}
+
+/// Deceleration at which the edge stands soon and its links ring little.
+double stops_mps2(double mode_radps, double speed_mps) {
+  const double radians = kAssistStopPeriods * kTwoPi;
+  return std::max(mode_radps * std::min(speed_mps / radians, kAssistStop_mps),
+                  speed_mps / kAssistStopMost_s);
 }
 
 /// One factor on all, so that the direction stays.
@@ -246,9 +254,13 @@ HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
                                               state.released, want.cap)
                                : target_of(range, want.leads, ask, state.released);
   if (assists) {
-    range.change_ps[kUp] = target.head<2>().isZero(0.0)
-                               ? kAssistStops_mps2
-                               : range.change_ps[kUp] + kAssistGrows_ps * last.head<2>().norm();
+    if (target.head<2>().isZero(0.0)) {
+      want.stops_mps2 = state.stops_mps2 > 0.0 ? state.stops_mps2
+                                               : stops_mps2(ask.mode_radps, last.head<2>().norm());
+      range.change_ps[kUp] = want.stops_mps2;
+    } else {
+      range.change_ps[kUp] += kAssistGrows_ps * last.head<2>().norm();
+    }
   }
   want.speed = softened(range, want.leads, target, last, period_s);
   hold_outside(range, want.leads, ask, want.speed);
@@ -277,6 +289,7 @@ HandState next_by_hand(const LineProfile& line, const HandWant& want, const Hand
     return next;
   }
   const bool assists = want.assist == AssistState::kHolds;
+  next.stops_mps2 = want.stops_mps2;
   next.plans = true;
   next.is_new = !last.plans;
   const double by_s = last.pace_ratio * want.cap.factor * followed_ratio * period_s;

@@ -26,6 +26,7 @@ struct HandState {
   DriveVector planned_m = DriveVector::Zero();  ///< The same of the drives.
   double pace_ratio = 1.0;                      ///< See TaskState.
   AssistState assist = AssistState::kNone;
+  double stops_mps2 = 0.0;  ///< Of Assist, once its levers have come to rest; 0: they have not.
 };
 
 /// What it is reckoned from.
@@ -34,7 +35,8 @@ struct HandAsk {
   std::array<double, kDriveCount> lever_ratio{};
   double speed_override_ratio = 0.0;
   double most_ratio = 1.0;  ///< That somebody outside leaves; it counts at once.
-  AssistDesign design{};    ///< Of Assist.
+  AssistDesign design{};    ///< Of Assist,
+  double mode_radps = 1.0;  ///< and the slower mode of boom and arm on their oil, see OilModes.
 };
 
 /// Wanted motion of the drives now.
@@ -49,6 +51,7 @@ struct HandWant {
   /// By what that is already slowed; of drives that are not led only the limit, of one of them.
   VelocityCap cap;
   AssistState assist = AssistState::kNone;
+  double stops_mps2 = 0.0;  ///< See HandState.
 };
 
 /// Full lever is the fastest speed that the pump gives a drive, in Coordinated the speed of the
@@ -61,9 +64,10 @@ struct HandWant {
 /// Assist: within assist.window of the design the arm's lever draws the edge along it as fast as
 /// that lever alone would move the arm, the attitude as it was, or turned by the bucket's lever;
 /// the boom's downwards does nothing. Before a kink of a surface it is slowed, so that the edge
-/// does not leave it there, and before the surface's border stopped. Upwards it ends that at once,
-/// as the swing's does, until the arm's has come to rest. Elsewhere, and without the arm's lever,
-/// each drive goes by its own.
+/// does not leave it there, and before the surface's border stopped. At rest it stops the edge
+/// within half a period of that mode, or in more where it is fast. Upwards it ends that at once, as
+/// the swing's does, until the arm's has come to rest. Elsewhere, and without the arm's lever, each
+/// drive goes by its own.
 [[nodiscard]] HandWant want_by_hand(const ExcavatorProfile& profile, DriveRows drives,
                                     const ExcavatorKinematics& kinematics,
                                     const KinematicState& now, const ExcavatorServo& servo,

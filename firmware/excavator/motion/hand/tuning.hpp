@@ -29,9 +29,17 @@ inline constexpr double kAssistSteepest = 0.5;
 /// `campaign assist`: at once 1 m/s2, a boom that moves before the arm does lifts the edge by 57 mm
 /// instead of 37; at 3, by 50]
 inline constexpr double kAssistGrows_ps = 1.5;
-/// Deceleration of the edge once the arm's lever rests. [m/s2; measured: `campaign assist`: at 8
-/// the stopped links ring longer than at 4 it takes to stop]
-inline constexpr double kAssistStops_mps2 = 4.0;
+/// Periods of the slower mode of boom and arm on their oil in which the edge stops once the arm's
+/// lever rests. [-; measured: `campaign assist --surfaces`: the edge is within 15 mm of where it
+/// comes to rest after 0.18 s (p95, 22 t), after 0.41 s at 1; two steps half a period apart, which
+/// leave this mode at rest, make the next one ring: 0.28 s]
+inline constexpr double kAssistStopPeriods = 0.5;
+/// Most speed that it loses in a radian of that mode. [m/s; measured: `campaign assist --surfaces`:
+/// without it the boom rings by more than 15 mm for up to 1.4 s after the fastest ways down a
+/// slope]
+inline constexpr double kAssistStop_mps = 0.2;
+/// Longest stop; so it is where the mode is not known. [s; chosen: not tried]
+inline constexpr double kAssistStopMost_s = 0.3;
 /// Distance off its line at which it goes half as fast. [m; measured: `campaign assist`: at 0.008
 /// the way takes 1.9 times as long as the flow allows, at 0.025 the largest error is 6 mm of 30
 /// more]
