@@ -288,6 +288,11 @@ ControlProfile read_control(TomlReader& reader) {
                                        "learnt at work; false: all of it "
                                        "is as told");
   }
+  if (reader.lists() || reader.has("control.learn_share")) {
+    control.learn_share = reader.number_or(
+        1.0, "control.learn_share", {0.01, 1.0, ""},
+        "share of its usual pace at which valves are learnt at work; graben identify writes 0.1");
+  }
   if (control.approach_outer_m <= control.approach_inner_m) {
     reader.fail("control.approach_outer",
                 fmt::format("{} m; allowed: more than approach_inner, {} m",

@@ -125,6 +125,7 @@ DriveRow section_row(const ExcavatorProfile& profile, int drive) {
                   control.servo_least_lambda, control.servo_frequency_hz, control.servo_damping,
                   profile.line.trim_ps2,      profile.line.trim_most_mps};
   row.control.learns = control.learns;
+  row.control.learn_share = control.learn_share;
   if (control.law == ControlLaw::kKim) {
     row.feedback.gain_ps = 0.0;
   }

@@ -221,6 +221,7 @@ struct ControlProfile {
   double dead_time_s = 0.0;          ///< From a duty to the spool's first movement.
   /// Valves, the oil's stiffness and lasting lags are learnt at work; else all is as told.
   bool learns = true;
+  double learn_share = 1.0;  ///< Of the pace for a machine as found, at which valves are learnt.
 };
 
 /// Bounds that the watches hold the machine to. Ranges are checked where it is read.

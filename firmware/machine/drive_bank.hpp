@@ -30,6 +30,7 @@ struct DriveControl {
   bool has_end_stops = true;  ///< Nothing takes the drive beyond the ends of its travel.
   bool holds_itself = false;  ///< Closed, its spool needs no correction to hold the drive.
   bool learns = true;         ///< What its valve turns out to be is learnt at work.
+  double learn_share = 1.0;   ///< Of the pace at which it would be learnt of a machine as found.
 };
 
 /// Feedback around the valve's model, see drive_servo.hpp.

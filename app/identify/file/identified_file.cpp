@@ -43,6 +43,7 @@ constexpr ControlValue kControlValues[] = {
     {"servo_gain", &ControlProfile::servo_gain_ps},
     {"servo_damping", &ControlProfile::servo_damping},
     {"pressure_filter", &ControlProfile::pressure_filter_s},
+    {"learn_share", &ControlProfile::learn_share},
 };
 
 /// TOML takes a number without a point for a whole one.

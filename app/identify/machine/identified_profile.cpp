@@ -16,6 +16,10 @@ constexpr double kLeastShare = 0.1;
 constexpr double kSettlePerLag = 1.75;
 /// Two points of a table are at least so far apart.
 constexpr double kApart = 1e-4;
+/// Pace at which valves that were measured are learnt: what seems to be theirs at work is mostly
+/// the pumps' and the oil's. Of 12 hidden 22 t the worst tip is 37.7 mm off; at the usual
+/// pace 56.4, at none 39.5.
+constexpr double kLearnShare = 0.1;
 
 double cube(double value) { return value * value * value; }
 
@@ -121,6 +125,16 @@ double pump_lag_s(const ExcavatorProfile& profile) {
              : 0.0;
 }
 
+/// Cylinders' valves that were all measured. With negative flow a bypass closes over the opening by
+/// one key for all sides: what that leaves has to be learnt.
+bool has_known_valves(const ExcavatorProfile& profile, const MachineEstimate& machine) {
+  return profile.pump[0].regulator.kind != PumpKind::kNegativeFlow &&
+         std::all_of(machine.drive.begin(), machine.drive.begin() + kAxisCount,
+                     [](const DriveEstimate& drive) {
+                       return has_curve(drive.extend) && has_curve(drive.retract);
+                     });
+}
+
 }  // namespace
 
 ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstimate& machine) {
@@ -170,6 +184,9 @@ ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstima
   result.control.servo_gain_ps = tuned.servo_gain_ps;
   result.control.servo_damping = tuned.servo_damping;
   result.control.pressure_filter_s = tuned.pressure_filter_s;
+  if (has_known_valves(profile, machine)) {
+    result.control.learn_share = std::min(result.control.learn_share, kLearnShare);
+  }
   result.safety.settle_s = std::max(result.safety.settle_s, kSettlePerLag * longest_lag_s);
   return result;
 }

@@ -36,14 +36,14 @@ void lag(const LearntSeen& newest, double share, LearntSeen& state) {
   state.speed_mps += share * (newest.speed_mps - state.speed_mps);
 }
 
-/// Kalman's correction by an opening `beyond` the profile's.
-void learn(double beyond, double opening, double variance, LearntSide& side) {
+/// Kalman's correction by an opening `beyond` the profile's; so much of it is taken.
+void learn(double beyond, double opening, double variance, double taken, LearntSide& side) {
   const double by_bend = curve(opening);
   const double by_edge = 1.0 - opening;
   const double of_edge = side.edge_variance * by_edge + side.covariance * by_bend;
   const double of_bend = side.covariance * by_edge + side.bend_variance * by_bend;
   const double total = by_edge * of_edge + by_bend * of_bend + variance;
-  const double missed = beyond - opening_beyond(side, opening);
+  const double missed = taken * (beyond - opening_beyond(side, opening));
   side.edge = std::clamp(side.edge + of_edge / total * missed, -kLearntEdgeMost, kLearntEdgeMost);
   side.bend = std::clamp(side.bend + of_bend / total * missed, -kLearntBendMost, kLearntBendMost);
   side.edge_variance -= of_edge * of_edge / total;
@@ -197,7 +197,8 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   const double by_profile = std::min(share * mean.asked.opening, 1.0);
   const double by_speed = by_profile * kLearntSpeedNoise_mps / mean.speed_mps;
   learn(mean.opening - by_profile, by_profile,
-        kLearntOpeningNoise * kLearntOpeningNoise + by_speed * by_speed, side);
+        kLearntOpeningNoise * kLearntOpeningNoise + by_speed * by_speed, drive.control.learn_share,
+        side);
 }
 
 bool stands_open(const LearntValve& valve) { return valve.unmoved_s > kStandingStood_s; }

@@ -140,6 +140,22 @@ TEST(told_not_to_it_learns_nothing, Bench bench) {
   assert_near(bench.valve.extend.edge_variance, LearntSide().edge_variance, 0.0);
 }
 
+/// A valve that was measured: what is seen at work moves it slowly, and it gets there all the same.
+TEST(a_share_of_the_pace_is_learnt) {
+  const auto learnt_edge = [](double share, double seconds) {
+    Bench bench;
+    bench.row.control.learn_share = share;
+    bench.corrected = false;
+    bench.extend.edge = kEdge + 0.03;
+    bench.work(seconds, 1.0);
+    return bench.valve.extend.edge;
+  };
+  const double all = learnt_edge(1.0, 10.0);
+  const double share = learnt_edge(0.1, 10.0) / all;
+  assert_true(share > 0.15 && share < 0.5);
+  assert_true(learnt_edge(0.1, 600.0) > 0.8 * all);
+}
+
 TEST(an_exponent_is_learnt) {
   for (const double exponent : {1.4, 1.8}) {
     Bench bench;

@@ -115,6 +115,27 @@ TEST(pumps_of_another_profile_are_not_written) {
       "pump[1].displacement: has no place in this profile's text, which is like another");
 }
 
+/// Valves that were all measured are learnt slowly at work; where one was not, or a bypass closes
+/// over their opening, at the usual pace.
+TEST(known_valves_are_learnt_slowly) {
+  for (const std::string& name : {std::string("excavator_22t"), std::string("excavator_22t_nfc")}) {
+    const std::string old_text = shipped_text(name);
+    const machines::ExcavatorMachine old = load(old_text);
+    JudgedFit fit = fit_of(old.profile);
+    assert_near(fit.profile.control.learn_share, 1.0, 0.0);
+    for (std::size_t axis = 0; axis < graben::kAxisCount; ++axis) {
+      fit.machine.drive[axis] = fit.machine.drive[graben::kBoom];
+      fit.machine.drive[axis].retract = fit.machine.drive[axis].extend;
+    }
+    fit.profile = identified(old.profile, fit.machine);
+    const bool slowly = name == "excavator_22t";
+    assert_near(fit.profile.control.learn_share, slowly ? 0.1 : 1.0, 0.0);
+    const std::string text = identified_text(old_text, old, fit, kFrom);
+    assert_int_equal(has(text, "learn_share = 0.1"), slowly);
+    assert_near(load(text).profile.control.learn_share, slowly ? 0.1 : 1.0, 0.0);
+  }
+}
+
 TEST(what_is_written_reads_back) {
   const auto [old_text, old, fit, text, read] = Found();
   assert_string_equal(first_difference(read.profile, fit.profile).c_str(), "");
