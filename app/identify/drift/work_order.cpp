@@ -73,7 +73,7 @@ constexpr std::array<Kind, 6> kKinds = {
          "stroke's zero",
          "mm",
          1e3,
-         {5e-4, 0.25},
+         {3e-4, 0.25},
          2e-3,
          0.0,
          "its stroke sensor shows more, by",

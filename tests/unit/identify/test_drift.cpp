@@ -12,18 +12,23 @@ using namespace graben::identify;
 constexpr double kDay_s = 86400.0;
 constexpr double kBegin_s = 1788336000.0;  // 2 September 2026.
 
-/// Creep of the arm on each day, as its logs know it.
-std::vector<FigureDrift> creeping(std::size_t days, const std::function<double(double)>& at,
-                                  double deviation = 0.03) {
+/// One figure of the arm on each day, as its logs know it.
+std::vector<FigureDrift> drifting(Wears what, double unit, std::size_t days,
+                                  const std::function<double(double)>& at, double deviation) {
   std::vector<DayFigures> all;
   for (std::size_t day = 0; day < days; ++day) {
     DayFigures of;
     of.time_s = kBegin_s + kDay_s * static_cast<double>(day);
     of.figures.push_back(
-        {Wears::kCreep, "arm", {1e-12 * at(static_cast<double>(day)), 1e-12 * deviation, true}});
+        {what, "arm", {unit * at(static_cast<double>(day)), unit * deviation, true}});
     all.push_back(of);
   }
   return drifts_of(all);
+}
+
+std::vector<FigureDrift> creeping(std::size_t days, const std::function<double(double)>& at,
+                                  double deviation = 0.03) {
+  return drifting(Wears::kCreep, 1e-12, days, at, deviation);
 }
 
 TEST(growth_is_an_order_in_plain_words) {
@@ -39,6 +44,24 @@ TEST(growth_is_an_order_in_plain_words) {
   assert_true(orders[0].find("look at the piston's seal") != std::string::npos);
   // By half of the final size.
   assert_true(*drifts[0].first_beyond_s <= kBegin_s + 5.0 * kDay_s);
+}
+
+/// Touches of one day's log are 0.3 mm off; 5 mm in ten days are seen by half of them.
+TEST(a_zero_that_shifts_is_seen_by_half_of_it) {
+  std::mt19937 dice(5);
+  std::normal_distribution<double> noise(0.0, 0.15);
+  int seen = 0;
+  for (int machine = 0; machine < 100; ++machine) {
+    const auto shifting = [&](double final_mm) {
+      return drifting(
+          Wears::kStrokeZero, 1e-3, 10,
+          [&](double day) { return final_mm * day / 9.0 + noise(dice); }, 0.3);
+    };
+    const auto five = shifting(5.0)[0].first_beyond_s;
+    seen += five && *five <= kBegin_s + 5.0 * kDay_s ? 1 : 0;
+    assert_false(shifting(0.0)[0].first_beyond_s.has_value());
+  }
+  assert_true(seen >= 90);
 }
 
 TEST(noise_is_none_and_one_bad_log_neither) {
