@@ -10,6 +10,7 @@
 #include "app/machines/body_section.hpp"
 #include "app/machines/bus_key.hpp"
 #include "app/machines/excavator_sections.hpp"
+#include "app/machines/learning_keys.hpp"
 #include "app/machines/mark_section.hpp"
 #include "app/machines/oil_section.hpp"
 #include "app/machines/pump_section.hpp"
@@ -282,17 +283,7 @@ ControlProfile read_control(TomlReader& reader) {
                     "low-pass of the load that the valve's model compensates");
   control.slow_error_m = reader.number("control.slow_error", {1e-3, 10.0, "m"},
                                        "path error at which the speed along the path is halved");
-  if (reader.lists() || reader.has("control.learns")) {
-    control.learns = reader.boolean_or(true, "control.learns",
-                                       "valves, the oil's stiffness and lasting lags of drives are "
-                                       "learnt at work; false: all of it "
-                                       "is as told");
-  }
-  if (reader.lists() || reader.has("control.learn_share")) {
-    control.learn_share = reader.number_or(
-        1.0, "control.learn_share", {0.01, 1.0, ""},
-        "share of its usual pace at which valves are learnt at work; graben identify writes 0.1");
-  }
+  read_learning(reader, control);
   if (control.approach_outer_m <= control.approach_inner_m) {
     reader.fail("control.approach_outer",
                 fmt::format("{} m; allowed: more than approach_inner, {} m",

@@ -49,18 +49,21 @@ double swing_speed_error(const ExcavatorProfile& profile, const identify::Machin
                     identify::DriveModel(identify::identified(profile, truth)), kSwing, left);
 }
 
-double largest_speed_error(const ExcavatorProfile& profile, const identify::MachineEstimate& found,
-                           const identify::MachineEstimate& truth) {
+SpeedErrors speed_errors(const ExcavatorProfile& profile, const identify::MachineEstimate& found,
+                         const identify::MachineEstimate& truth) {
   const identify::DriveModel is(identify::identified(profile, found));
   const identify::DriveModel truly(identify::identified(profile, truth));
-  double most = 0.0;
+  SpeedErrors errors;
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
     for (const bool extends : {true, false}) {
-      most = std::max(
-          most, side_error(profile, found.drive[axis].side(extends), is, truly, axis, extends));
+      const identify::SideEstimate& side = found.drive[axis].side(extends);
+      const double error = side_error(profile, side, is, truly, axis, extends);
+      errors.most = std::max(errors.most, error);
+      errors.within += side.driven_most > 0.0 && error <= kSpeedFound ? 1 : 0;
+      ++errors.sides;
     }
   }
-  return most;
+  return errors;
 }
 
 }  // namespace graben::runs

@@ -50,12 +50,12 @@ void take_errors(const IdentificationErrors& errors, IdentifySummary& summary) {
   summary.stroke_zero_error_m = errors.stroke_zero_m;
   summary.pressure_zero_error_pa = errors.pressure_zero_pa;
   summary.pump_flow_error_ratio = errors.pump_flow;
-  summary.speed_error_ratio = errors.speed_ratio;
+  summary.speed_error_ratio = errors.speed.most;
   summary.within_band_share = errors.within_share();
 }
 
 void take_swing(const ExcavatorProfile& profile, const identify::MachineEstimate& found,
-                const machines::MachineTruth& truth, IdentifySummary& summary) {
+                const machines::MachineTruth& truth, SpeedErrors speeds, IdentifySummary& summary) {
   const auto error = [&](bool left) {
     // What was not driven is not known at all.
     return found.drive[kSwing].side(left).driven_most > 0.0
@@ -65,7 +65,12 @@ void take_swing(const ExcavatorProfile& profile, const identify::MachineEstimate
   if (profile.has_swing()) {
     summary.swing_left_error_ratio = error(true);
     summary.swing_right_error_ratio = error(false);
+    for (const double off : {summary.swing_left_error_ratio, summary.swing_right_error_ratio}) {
+      speeds.within += off <= kSpeedFound ? 1 : 0;
+      ++speeds.sides;
+    }
   }
+  summary.sides_within_share = static_cast<double>(speeds.within) / speeds.sides;
 }
 
 void take_times(const machines::MachineTruth& truth, IdentifySummary& summary) {
@@ -133,8 +138,9 @@ IdentifyResult run_identification(const machines::SimulatedExcavator& hidden,
     return result;
   }
   if (options.truth_is_known) {
-    take_errors(errors_of(hidden.profile, found, truth), summary);
-    take_swing(hidden.profile, found, truth, summary);
+    const IdentificationErrors errors = errors_of(hidden.profile, found, truth);
+    take_errors(errors, summary);
+    take_swing(hidden.profile, found, truth, errors.speed, summary);
   }
   const double override_ratio =
       options.speed_override_ratio * (summary.longest_dead_time_s > kLateHydraulics_s ? 0.5 : 1.0);
@@ -216,6 +222,9 @@ const FigureTable<IdentifySummary>& identify_figures() {
       {{"speed_error_ratio", "speed of one drive, largest error, of full", kPercent,
         "speed_error_ratio"},
        [](const S& s) { return s.speed_error_ratio; }},
+      {{"sides_within_share", "sides within 3 % of full speed", kPercent, "sides_within_share",
+        BadEnd::kLow},
+       [](const S& s) { return s.sides_within_share; }},
       {{"within_band_share", "truth within the stated 95 % band", kPercent, "within_band_share",
         BadEnd::kLow},
        [](const S& s) { return s.within_band_share; }},

@@ -45,6 +45,7 @@ struct IdentifySummary {
   double pressure_zero_error_pa = kAbsent;
   double pump_flow_error_ratio = kAbsent;
   double speed_error_ratio = kAbsent;
+  double sides_within_share = kAbsent;  ///< Of the cylinders and the swing, within 3 % of full.
   double within_band_share = kAbsent;
   double longest_dead_time_s = kAbsent;
   double longest_lag_s = kAbsent;

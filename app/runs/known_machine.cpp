@@ -173,7 +173,7 @@ IdentificationErrors errors_of(const ExcavatorProfile& profile,
     count.add(drive.cap_zero_pa, truly.cap_zero_pa, errors.pressure_zero_pa);
     count.add(drive.rod_zero_pa, truly.rod_zero_pa, errors.pressure_zero_pa);
   }
-  errors.speed_ratio = largest_speed_error(profile, found, known_machine(profile, truth));
+  errors.speed = speed_errors(profile, found, known_machine(profile, truth));
   for (int j = 0; j < profile.pump_count; ++j) {
     const auto k = static_cast<unsigned>(j);
     count.add(found.pump_flow_factor[k], truth.pump_flow_factor[k], errors.pump_flow);

@@ -4,6 +4,7 @@
 
 #include "app/identify/machine/estimate.hpp"
 #include "app/machines/simulated/machine_truth.hpp"
+#include "app/runs/drive_speeds.hpp"
 #include "firmware/excavator/excavator_profile.hpp"
 
 namespace graben::runs {
@@ -19,10 +20,10 @@ struct IdentificationErrors {
   double lag_s = 0.0;
   double stroke_zero_m = 0.0;
   double pressure_zero_pa = 0.0;
-  double pump_flow = 0.0;    ///< As a share.
-  double speed_ratio = 0.0;  ///< Of full speed; see largest_speed_error().
-  int values = 0;            ///< With a stated deviation ...
-  int within = 0;            ///< ... and the truth within 1.96 of them.
+  double pump_flow = 0.0;  ///< As a share.
+  SpeedErrors speed;       ///< Of full speed.
+  int values = 0;          ///< With a stated deviation ...
+  int within = 0;          ///< ... and the truth within 1.96 of them.
 
   [[nodiscard]] double within_share() const {
     return values > 0 ? static_cast<double>(within) / values : 0.0;

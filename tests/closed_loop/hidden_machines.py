@@ -7,7 +7,7 @@ dozers, whose edge takes the place of the tip:
 - commissioning ends without a fault, within five minutes, and a profile comes of it that digs;
 - the true tip's error with the identified profile is at most 1.3 times that of exact knowledge, or 5 mm more: the
   median, the 95th percentile, and machine by machine in 95 % of them;
-- with --speeds, every side's speed is within 3 % of full in 90 % of the machines; of dozers in 90 % of the sides, always."""
+- of dozers, and with --speeds of excavators, too, a speed is within 3 % of full in 90 % of the sides."""
 
 import argparse
 import csv
@@ -19,7 +19,7 @@ import tempfile
 
 MOST_S = 300.0
 RATIO, MORE_M = 1.3, 0.005
-SPEED, WITHIN = 0.03, 0.95
+SPEED, SIDES, WITHIN = 0.03, 0.9, 0.95
 
 
 def read(path):
@@ -56,15 +56,9 @@ def judge(rows, speeds):
     print(f"machine by machine: {within} of {len(rows)} within")
     if within < WITHIN * len(rows):
         missed.append(f"machine by machine: {within} of {len(rows)}")
-    if rows and "sides_within_share" in rows[0]:
-        share = sum(float(row["sides_within_share"] or 0.0) for row in rows) / len(rows)
-        print(f"sides within {100 * SPEED:.0f} % of full speed: {100 * share:.0f} %")
-        return missed + ([f"speeds: {100 * share:.0f} % of the sides"] if share < 0.9 else [])
-    fast = sum(float(row["speed_error_ratio"]) <= SPEED for row in done)
-    print(f"speeds of all cylinders within {100 * SPEED:.0f} % of full: {fast} of {len(rows)}")
-    if speeds and fast < 0.9 * len(rows):
-        missed.append(f"speeds: {fast} of {len(rows)}")
-    return missed
+    share = sum(float(row["sides_within_share"] or 0.0) for row in rows) / len(rows)
+    print(f"sides within {100 * SPEED:.0f} % of full speed: {100 * share:.0f} %")
+    return missed + ([f"speeds: {100 * share:.0f} % of the sides"] if speeds and share < SIDES else [])
 
 
 def main():
@@ -92,7 +86,7 @@ def main():
             "commissioning_s", "max_error_identified_m", "max_error_exact_m", "speed_error_ratio")]
         print(f"{row['seed']:>7} {row['end']:>20} {number[0]:4.0f} {1e3 * number[1]:15.1f} "
               f"{1e3 * number[2]:10.1f} {1e2 * number[3]:9.1f}")
-    missed = judge(rows, options.speeds)
+    missed = judge(rows, options.speeds or options.profile.startswith("dozer"))
     for sentence in missed:
         print(f"missed: {sentence}")
     sys.exit(1 if missed else 0)

@@ -67,7 +67,21 @@ TEST(a_hidden_machine_is_found) {
   assert_true(errors.stroke_zero_m < 0.001);
   assert_true(errors.pressure_zero_pa < 0.6e6);
   assert_true(errors.pump_flow < 0.04);
-  assert_true(errors.speed_ratio < 0.06);
+  assert_true(errors.speed.most < 0.06);
+  assert_int_equal(errors.speed.sides, 6);
+  assert_in_range(errors.speed.within, 3, 6);
+  // A side that nobody drove has no speed.
+  MachineEstimate none = commissioned.found;
+  for (DriveEstimate& drive : none.drive) {
+    for (SideEstimate* side : {&drive.extend, &drive.retract}) {
+      side->driven_least = 1.0;
+      side->driven_most = 0.0;
+    }
+  }
+  const runs::SpeedErrors undriven =
+      runs::speed_errors(commissioned.machine.profile, none,
+                         runs::known_machine(commissioned.machine.profile, commissioned.truth));
+  assert_int_equal(undriven.within, 0);
   assert_true(errors.within_share() > 0.8);
 }
 
@@ -82,7 +96,7 @@ TEST(a_machine_that_senses_its_load_is_found) {
   assert_true(errors.dead_time_s < 0.010);
   assert_true(errors.lag_s < 0.010);
   assert_true(errors.pressure_zero_pa < 0.6e6);
-  assert_true(errors.speed_ratio < 0.05);
+  assert_true(errors.speed.most < 0.05);
   assert_true(errors.within_share() > 0.8);
   assert_true(commissioned.found.pump_flow_factor[1].known);
   assert_near(commissioned.found.pump_flow_factor[1].value, commissioned.truth.pump_flow_factor[1],
@@ -115,13 +129,13 @@ TEST(what_is_known_is_without_error) {
   const machines::MachineTruth truth = machines::truth_of(machine.plant);
   const MachineEstimate known = runs::known_machine(machine.profile, truth);
   const ExcavatorProfile exact = identified(machine.profile, known);
-  assert_near(runs::largest_speed_error(machine.profile, known, known), 0.0, 0.0);
+  assert_near(runs::speed_errors(machine.profile, known, known).most, 0.0, 0.0);
   MachineEstimate weaker = known;
   weaker.pump_flow_factor = {};
   for (Estimate& factor : weaker.pump_flow_factor) {
     factor.value = 0.9;
   }
-  assert_true(runs::largest_speed_error(machine.profile, weaker, known) > 0.05);
+  assert_true(runs::speed_errors(machine.profile, weaker, known).most > 0.05);
   for (unsigned axis = 0; axis < kAxisCount; ++axis) {
     const auto& side = truth.drive[axis].extend;
     assert_near(exact.valve.spool[axis].extend_in_m2, side.in_m2, 1e-3 * side.in_m2);
