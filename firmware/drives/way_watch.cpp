@@ -17,14 +17,13 @@ double follow(const SpoolAnswer& answer, double asked_mps, double period_s, WayS
   return state.late_mps[1];
 }
 
-/// Its load may slow it, whatever its valve lets through.
+}  // namespace
+
 bool presses(const DriveRow& drive, const ValidDrive& seen, double asked_mps) {
   const double inlet_pa = asked_mps > 0.0 ? seen.cap_pressure_pa : seen.rod_pressure_pa;
   return seen.load_known && drive.watch.relief_pa > 0.0 &&
          inlet_pa > kWayPresses * drive.watch.relief_pa;
 }
-
-}  // namespace
 
 bool watch_way(const DriveRow& drive, const ValidDrive& seen, const WayAsk& ask, double period_s,
                WayState& state) {

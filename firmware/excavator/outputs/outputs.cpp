@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/drives/way_watch.hpp"
 #include "firmware/excavator/outputs/tuning.hpp"
 #include "firmware/excavator/tuning.hpp"
 
@@ -95,13 +96,14 @@ GateResult send(const ExcavatorModel& machine, const ExcavatorValid& valid, bool
 }
 
 /// Of each pump's drives, the largest share that one lacks of its wanted speed, as guards leave it.
-PerPump<double> short_shares(const ExcavatorModel& machine, const InputState& inputs,
-                             const Motion& motion) {
+/// Of those that press alone: a stroke that only seems to stand is no reason to push harder.
+PerPump<double> short_shares(const ExcavatorModel& machine, const ExcavatorValid& valid,
+                             const InputState& inputs, const Motion& motion) {
   PerPump<double> lacks{};
   for (int i = 0; i < kAxisCount; ++i) {
     const auto k = static_cast<unsigned>(i);
     const double wanted_mps = motion.cap.factor * motion.wanted_mps[i];
-    if (wanted_mps != 0.0) {
+    if (wanted_mps != 0.0 && presses(machine.drives[i], valid.drive[k], wanted_mps)) {
       const double share = 1.0 - inputs.accepted[k].speed_mps / wanted_mps;
       const double counts = std::abs(wanted_mps) / (std::abs(wanted_mps) + kShortHalf_mps);
       double& most = lacks[static_cast<unsigned>(machine.valve.actuator[k].pump)];
@@ -117,12 +119,12 @@ void demand_pumps(const ExcavatorModel& machine, const ExcavatorValid& valid,
                   bool active, double period_s, const LastCycle& last, PumpDemand& pumps) {
   const ExcavatorProfile& profile = machine.profile;
   const auto& blocked = inputs.watch.drives.blocked;
-  next_pump_demand(profile, machine.valve,
-                   {valve_input(machine, motion.wanted_mps, valid, estimates), last.flow.line_pa,
-                    valid.engine_radps, short_shares(machine, inputs, motion),
-                    active && !motion.tries, any_blocked(blocked) || any_wary(blocked),
-                    reserve_ratio(motion)},
-                   period_s, pumps);
+  next_pump_demand(
+      profile, machine.valve,
+      {valve_input(machine, motion.wanted_mps, valid, estimates), last.flow.line_pa,
+       valid.engine_radps, short_shares(machine, valid, inputs, motion), active && !motion.tries,
+       any_blocked(blocked) || any_wary(blocked), reserve_ratio(motion)},
+      period_s, pumps);
   if (active && motion.tries && profile.demand_swash.most_ratio > 0.0) {
     // With less, a load that takes all that a line has hides how its valve opens.
     for (unsigned j = 0; j < static_cast<unsigned>(profile.pump_count); ++j) {
