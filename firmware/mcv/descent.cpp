@@ -42,9 +42,10 @@ LambdaChange stagnant_change(const FlowBalance& line, const Requirement& require
   return change;
 }
 
-/// A feasible lambda that was found is one to follow, though a larger one may be.
-Halved ended_early(const McvPoint& fails, Halved found) {
-  found.bounded = found.bounded && found.point.lambda > 0.0;
+/// A feasible lambda that was found is one to follow, though a larger one may be; and where all
+/// down to less than a first cycle's fails, it stands.
+Halved ended_early(const McvPoint& fails, double infeasible, Halved found) {
+  found.bounded = found.bounded && (found.point.lambda > 0.0 || infeasible < kFirstLambda);
   found.limit = fails.limit;
   return found;
 }
@@ -138,7 +139,7 @@ Halved halved(const McvCircuit& circuit, const McvPoint& low, const McvPoint& hi
   double infeasible = high.lambda;
   for (int n = 0; n < kHalvings && infeasible - result.point.lambda > width; ++n) {
     if (!may_step(circuit.work)) {
-      return ended_early(fails, result);
+      return ended_early(fails, infeasible, result);
     }
     const double middle = 0.5 * (result.point.lambda + infeasible);
     ++result.evaluations;
@@ -148,7 +149,7 @@ Halved halved(const McvCircuit& circuit, const McvPoint& low, const McvPoint& hi
     }
     const McvPoint at = evaluate(circuit, middle, &near);
     if (!at.converged && circuit.work->left <= 0) {
-      return ended_early(fails, result);
+      return ended_early(fails, infeasible, result);
     }
     near = at;
     result.bounded = result.bounded && near.converged;
@@ -160,7 +161,7 @@ Halved halved(const McvCircuit& circuit, const McvPoint& low, const McvPoint& hi
     const McvPoint at = evaluate(circuit, infeasible, &near);
     ++result.evaluations;
     if (!at.converged && circuit.work->left <= 0) {
-      return ended_early(fails, result);
+      return ended_early(fails, infeasible, result);
     }
     fails = at;
     result.bounded = result.bounded && fails.converged;

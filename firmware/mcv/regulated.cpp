@@ -95,12 +95,14 @@ double held_sqrt_pressure(const CircuitAxis& axis, double lambda, double from) {
   return std::max({from, shut, std::sqrt(std::max(0.0, needed_n / axis.inlet_area_m2))});
 }
 
-/// Least sqrt(P) from `from` up at which all drives of the line have their margins: what one asks
-/// for can be in another's gap.
-double all_held_sqrt_pressure(const McvCircuit& circuit, unsigned pump, double lambda,
-                              double from) {
-  double wanted = from;
+/// `wanted` goes up to the least sqrt(P) at which all drives of the line have their margins: what
+/// one asks for can be in another's gap. A step for each time that they are asked; false where they
+/// have come to an end.
+bool raise_to_margins(const McvCircuit& circuit, unsigned pump, double lambda, double& wanted) {
   for (int pass = 0; pass < kGapPasses; ++pass) {
+    if (!may_step(circuit.line[pump].work)) {
+      return false;
+    }
     const double before = wanted;
     for (unsigned i = 0; i < circuit.axis_count; ++i) {
       const CircuitAxis& axis = circuit.axis[i];
@@ -109,10 +111,10 @@ double all_held_sqrt_pressure(const McvCircuit& circuit, unsigned pump, double l
       }
     }
     if (wanted <= before) {
-      return wanted;
+      return true;
     }
   }
-  return wanted;
+  return true;
 }
 
 PumpPressure by_load(const McvCircuit& circuit, unsigned pump, double lambda, double guess) {
@@ -120,24 +122,22 @@ PumpPressure by_load(const McvCircuit& circuit, unsigned pump, double lambda, do
   if (!(feed_margin_m3ps(line, lambda) >= 0.0) || !(line.bypass > 0.0)) {
     return solve_pump_pressure(line, lambda);
   }
-  const double margin = std::sqrt(line.regulated->regulator.margin_pa);
-  double wanted = all_held_sqrt_pressure(circuit, pump, lambda, margin);
-  PumpPressure alone;
-  if (line.regeneration_count > 0) {
+  PumpPressure found{true, true, std::sqrt(line.regulated->regulator.margin_pa), 0};
+  double& wanted = found.sqrt_pressure;
+  found.converged = raise_to_margins(circuit, pump, lambda, wanted);
+  if (line.regeneration_count > 0 && found.converged) {
     // What comes back may be more than goes out: no pump takes it away.
     FlowBalance idle = line;
     idle.flow_m3ps = 0.0;
     if (feed_margin_m3ps(idle, lambda) >= 0.0 && flow_left(idle, lambda, wanted) > 0.0) {
-      alone = solve_pump_pressure(idle, lambda, guess);
-      wanted = all_held_sqrt_pressure(circuit, pump, lambda, alone.sqrt_pressure);
+      found = solve_pump_pressure(idle, lambda, guess);
+      found.converged = found.converged && raise_to_margins(circuit, pump, lambda, wanted);
     }
   }
-  if (alone.fed && !alone.converged) {
-    return alone;
-  }
   wanted = line.has_relief ? std::min(wanted, line.sqrt_relief) : wanted;
-  return flow_left(line, lambda, wanted) >= 0.0 ? PumpPressure{true, true, wanted, alone.iterations}
-                                                : solve_pump_pressure(line, lambda, wanted);
+  return !found.converged || flow_left(line, lambda, wanted) >= 0.0
+             ? found
+             : solve_pump_pressure(line, lambda, wanted);
 }
 
 /// c_v,by of (20) at an opening, where it closes over some of it.

@@ -11,7 +11,8 @@ import subprocess
 import sys
 import tempfile
 
-SPEEDS = (1.0, 0.5, 0.3, 0.1)
+# Of the slowest 6 and 5 mm were wanted: what a stroke's resolution hides is as long there as the way of a second.
+SPEEDS = {1.0: 1.0, 0.5: 1.0, 0.3: 1.0, 0.1: 1.0, 0.05: 1.3}
 MOST_MM = {"excavator_22t": 6.0, "excavator_12t": 5.5}
 # Of a lap, against the full speed's over the share of it.
 LONGER = 1.05
@@ -29,13 +30,13 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         for machine, most_mm in MOST_MM.items():
             full_s = 0.0
-            for speed in SPEEDS:
+            for speed, more in SPEEDS.items():
                 figures = dig(sys.argv[1], folder, machine, speed)
                 full_s = full_s or figures["loop_s"]
                 off_mm, share = 1e3 * figures["max_error_true_m"], figures["loop_s"] * speed / full_s
-                bad = not 0.0 < off_mm <= most_mm or not 0.9 < share <= LONGER
+                bad = not 0.0 < off_mm <= more * most_mm or not 0.9 < share <= LONGER
                 wrong += bad
-                print(f"{machine}, speed {speed:g}: {off_mm:.1f} mm ({most_mm:g} at most), "
+                print(f"{machine}, speed {speed:g}: {off_mm:.1f} mm ({more * most_mm:.1f} at most), "
                       f"lap {share:.3f} of the full one's{': too much' if bad else ''}")
     return 1 if wrong else 0
 

@@ -166,6 +166,8 @@ TEST(the_swash_goes_by_what_is_needed) {
 /// The pump of a drive that goes much slower than it should gives more than the model asks for, to
 /// a bound; what is a little slow does not count, and what was added goes again.
 TEST(a_drive_that_falls_short_gets_more, Digging digging) {
+  digging.input.velocity_mps = {0.02, 0.03, 0.01, 0.0};
+  digging.input.cap_pressure_pa.fill(1e6);
   const double light = digging.settled(0);
   const double other = digging.settled(1);
   digging.short_share[0] = 0.3;
