@@ -25,12 +25,12 @@ struct Capability {
 };
 
 constexpr Capability kCapabilities[] = {
-    {"nothing", "-", "-", "22.5 / 36.5; 58.8 / 85.5; 21.3 / 34.1; 54.4 / 78.2",
+    {"nothing", "-", "-", "23.1 / 38.6; 58.9 / 81.9; 21.7 / 36.1; 54.4 / 74.1",
      [](const ExcavatorProfile&) { return false; }},
     {"strokes", "IMUs on the links",
      "a frame of another IMU under this one's address; one whose bits changed within its range; "
      "an IMU that is mounted up to 3 deg off; a drift below 1 deg/s; a step of 25 mm",
-     "26.8 / 39.4; 61.6 / 98.5; 20.9 / 35.7; 57.3 / 78.9",
+     "27.0 / 40.2; 61.4 / 93.6; 21.0 / 35.7; 58.3 / 80.3",
      [](const ExcavatorProfile& profile) { return profile.imu.known(); }},
     {"strokes", "slope sensors or joint angles by a bus profile",
      "a slope that stands still where spools or pressures are not measured; one that is mounted up "
@@ -42,10 +42,10 @@ constexpr Capability kCapabilities[] = {
     {"spool positions", "the command",
      "SpoolMissing, SpoolStuck; a stroke against its oil (StrokeStuck, MotionImplausible); spools "
      "that are not centred before arming",
-     "22.4 / 36.2; 58.3 / 83.7; 21.0 / 36.1; 54.3 / 73.8",
+     "22.5 / 37.0; 58.4 / 83.6; 21.2 / 36.8; 54.7 / 77.4",
      [](const ExcavatorProfile& profile) { return !profile.bus.spool_feedback; }},
     {"swash of the pumps", "the command", "SwashMissing, SwashDisagrees",
-     "22.4 / 36.9; 60.0 / 87.4; 21.1 / 34.6; 53.7 / 76.5",
+     "23.5 / 43.2; 60.2 / 85.9; 21.5 / 37.7; 53.9 / 78.6",
      [](const ExcavatorProfile& profile) {
        return !profile.bus.swash_feedback && !profile.pump[0].regulator.sets_swash();
      }},
