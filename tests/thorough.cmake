@@ -63,7 +63,7 @@ graben_thorough("fault_cases_* in simulated time" hil_plausible canary_hil_plaus
 graben_thorough("hours_few" hours hil_hours)
 graben_thorough("timing_counts: instructions of a cycle" hil_timing canary_hil_timing)
 graben_thorough("unit_ecu_store: writes dropped, halved, reordered" hil_power_cuts)
-graben_thorough("unit_operate_*" hil_operate hil_assist hil_commission)
+graben_thorough("unit_operate_*" hil_operate hil_first_metre hil_commission)
 
 # The packages: what is in them is left.
 graben_thorough("package_contents, package_tool_contents"

@@ -133,10 +133,12 @@ class ToldTasks {
 /// With the tasks that are told, else with those of the shipped ones that it can do.
 template <class Machine>
 json excavator_json(const Machine& machine, const SetupOptions& options, ToldTasks& told) {
-  if (!machine.profile.has_swing()) {
-    return machine_json(machine, {});
+  // Without a swing it can still follow a design (Assist), but none of the shipped programs.
+  if (options.tasks.empty()) {
+    return machine_json(
+        machine, machine.profile.has_swing() ? shipped_tasks(machine) : std::vector<TaskFile>());
   }
-  return machine_json(machine, options.tasks.empty() ? shipped_tasks(machine) : told.on(machine));
+  return machine_json(machine, told.on(machine));
 }
 
 }  // namespace

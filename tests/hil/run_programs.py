@@ -22,7 +22,7 @@ def run(script: str, out: pathlib.Path, programs: list[pathlib.Path],
     programs = [*programs, *(pathlib.Path(shutil.which(tool) or f"/usr/bin/{tool}") for tool in tools)]
     # Behind graben, what the guests' scripts call: plant, operate, commission; and the scope where it is tried.
     for graben in [program for program in programs if program.name == "graben"]:
-        behind = ("graben-bus", "graben-scope") if script == "scope.sh" else ("graben-bus",)
+        behind = ("graben-bus", "graben-scope") if script in ("scope.sh", "first_metre.sh") else ("graben-bus",)
         programs = [*programs, *(graben.with_name(name) for name in behind)]
     scenario = Scenario(script=HERE / script, programs=programs, controllers=controllers, modules=modules,
                         timeout_s=timeout_s, icount_shift=icount_shift, patience_s=max(1200.0, 8.0 * timeout_s),
