@@ -61,6 +61,8 @@ struct AssistCampaign : TaskCampaign {
   machines::SimulatedChoice simulated;
   std::string profile = "excavator_22t";
   std::string errors = "all";
+  machines::Found found;
+  bool imus = false;
   bool unmarked = false;
   bool surfaces = false;
 };
@@ -332,6 +334,14 @@ void add_campaign_assist(CLI::App& campaign, int& status) {
                    "What the controller does not know, as in campaign dig")
       ->check(error_name())
       ->capture_default_str();
+  add_found_option(*command, options->found);
+  command
+      ->add_option_function<std::string>(
+          "--sensors", [options](const std::string& name) { options->imus = name == "imu"; },
+          "What measures the joints, as in campaign dig: the profile's sensors, or IMUs on the "
+          "links")
+      ->check(one_of({"profile", "imu"}))
+      ->default_str("profile");
   command->add_flag("--unmarked", options->unmarked,
                     "The edge was not touched to a mark at the start");
   command->add_flag("--surfaces", options->surfaces,
@@ -344,7 +354,7 @@ void add_campaign_assist(CLI::App& campaign, int& status) {
               [](const AssistCampaign& of, const runs::CampaignOptions& chosen,
                  const runs::Progress& progress) {
                 const auto machine = known_excavator(of, machines::kCylinders);
-                runs::AssistTrial trial{of.errors, !of.unmarked, {}};
+                runs::AssistTrial trial{of.errors, !of.unmarked, {}, of.found, of.imus};
                 if (of.surfaces) {
                   trial.grounds = runs::assist_grounds(machine.profile);
                   trial.grounds.push_back(crest_ground(machine.profile));

@@ -72,6 +72,10 @@ ExcavatorPlant::ExcavatorPlant(const ExcavatorPlantProfile& profile,
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     cylinder_[i].start(links_.levers()[i].stroke_m, holding[i]);
   }
+  if (profile.rocking_rad > 0.0) {
+    rocking_.emplace(profile);
+    settled_nm_ = links_.weight_moment_nm();
+  }
   if (profile.machine.has_swing()) {
     swing_.emplace(Swing{SwingMotor(profile.motor(), step_s_),
                          Platform(profile.platform, start_swing_, links_.swing_inertia_kgm2())});
@@ -150,7 +154,7 @@ void ExcavatorPlant::set_bypasses() {
 void ExcavatorPlant::push_tip() {
   tip_force_n_ = outer_force_n_;
   if (soil_ || obstacle_) {
-    const Eigen::Vector2d tip_m = links_.tip().position_m;
+    const Eigen::Vector2d tip_m = tip().position_m;
     if (soil_) {
       tip_force_n_ += soil_->step(tip_m);
     }
@@ -160,14 +164,29 @@ void ExcavatorPlant::push_tip() {
   }
   double moment_nm = 0.0;
   if (digging_) {
-    const TipPose tip = links_.tip();
-    const Eigen::Vector2d at_m = profile_.machine.geometry.boom_foot_m + tip.position_m;
-    const BucketForce soil = digging_->step({at_m.x(), at_m.y(), tip.attitude_rad, swing_rad()});
+    const TipPose pose = tip();
+    const Eigen::Vector2d at_m = profile_.machine.geometry.boom_foot_m + pose.position_m;
+    const BucketForce soil = digging_->step({at_m.x(), at_m.y(), pose.attitude_rad, swing_rad()});
     tip_force_n_ += soil.force_n;
     moment_nm = soil.moment_nm;
     links_.carry(digging_->fill());
   }
-  links_.set_tip_force(tip_force_n_, moment_nm);
+  if (!rocking_) {
+    links_.set_tip_force(tip_force_n_, moment_nm);
+    return;
+  }
+  links_.set_tip_force(Rotation::by(-rocking_->angle_rad()).apply(tip_force_n_), moment_nm);
+  tip_moment_nm_ = moment_nm;
+}
+
+void ExcavatorPlant::rock() {
+  BaseLoad load = links_.base_load();
+  const Eigen::Vector2d at_m = profile_.machine.geometry.boom_foot_m + tip().position_m;
+  load.moment_nm =
+      cross(at_m, tip_force_n_) + tip_moment_nm_ + links_.weight_moment_nm() - settled_nm_;
+  load.up_n = tip_force_n_.y();
+  rocking_->step(load, step_s_);
+  links_.set_base(rocking_->angle_rad(), rocking_->acceleration_radps2());
 }
 
 SectionPorts ExcavatorPlant::ports_of(std::size_t drive) const {
@@ -262,6 +281,9 @@ void ExcavatorPlant::step() {
   load_engine();
   meter();
   move_links();
+  if (rocking_) {
+    rock();
+  }
   if (swing_) {
     turn_platform();
   }
@@ -339,13 +361,23 @@ double ExcavatorPlant::swing_spool_ratio() const {
   return swing_ ? section_[kSwing].spool().travel_ratio() : 0.0;
 }
 
+TipPose ExcavatorPlant::tip() const {
+  TipPose pose = links_.tip();
+  if (rocking_) {
+    const Eigen::Vector2d& boom_foot_m = profile_.machine.geometry.boom_foot_m;
+    pose.position_m = rocking_->on_ground(boom_foot_m + pose.position_m) - boom_foot_m;
+    pose.attitude_rad += rocking_->angle_rad();
+  }
+  return pose;
+}
+
 TeethTruth ExcavatorPlant::teeth() const {
-  const TipPose tip = links_.tip();
+  const TipPose pose = tip();
   const Eigen::Vector2d& boom_foot_m = profile_.machine.geometry.boom_foot_m;
-  const double radius = boom_foot_m.x() + tip.position_m.x();
+  const double radius = boom_foot_m.x() + pose.position_m.x();
   return {{radius * std::cos(swing_rad()), radius * std::sin(swing_rad()),
-           boom_foot_m.y() + tip.position_m.y()},
-          tip.attitude_rad};
+           boom_foot_m.y() + pose.position_m.y()},
+          pose.attitude_rad};
 }
 
 ExcavatorPlant::PumpArray ExcavatorPlant::swash_ratios() const {

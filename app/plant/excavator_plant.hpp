@@ -14,6 +14,7 @@
 #include "app/plant/excavator_plant_profile.hpp"
 #include "app/plant/linkage_dynamics.hpp"
 #include "app/plant/pump_line.hpp"
+#include "app/plant/rocking_base.hpp"
 #include "app/plant/soil/bucket_soil.hpp"
 #include "app/plant/spool.hpp"
 #include "app/plant/swing_drive.hpp"
@@ -119,7 +120,10 @@ class ExcavatorPlant {
   [[nodiscard]] const Cylinder& cylinder(std::size_t axis) const { return cylinder_[axis]; }
   [[nodiscard]] const PumpLine& pump(std::size_t index) const { return pump_[index]; }
   [[nodiscard]] const JointArray& joint_angles_rad() const { return links_.angles(); }
-  [[nodiscard]] TipPose tip() const { return links_.tip(); }
+  /// In the ground's axes, from where the boom foot is on firm ground.
+  [[nodiscard]] TipPose tip() const;
+  /// Ground that gives way under the tracks; null where it is firm.
+  [[nodiscard]] const RockingBase* rocking() const { return rocking_ ? &*rocking_ : nullptr; }
   /// Highest pressure that any chamber has had, between the readings too.
   [[nodiscard]] double peak_chamber_pressure_pa() const { return peak_chamber_pressure_pa_; }
   /// Whole force on the bucket tip over the last step, N.
@@ -148,6 +152,7 @@ class ExcavatorPlant {
                                          double hose_m3ps, double cushion_pas2pm6) const;
   void set_bypasses();
   void push_tip();
+  void rock();
   void move_swash();
   [[nodiscard]] double felt_load_pa(std::size_t pump) const;
   void load_engine();
@@ -168,6 +173,9 @@ class ExcavatorPlant {
   std::vector<ValveSection> section_;                        ///< One a drive.
   std::array<Cylinder, kAxisCount> cylinder_;
   LinkageDynamics links_;
+  std::optional<RockingBase> rocking_;
+  double tip_moment_nm_ = 0.0;
+  double settled_nm_ = 0.0;  ///< Moment of the links' weight that the ground has settled under.
   std::optional<Swing> swing_;
   double start_swing_;
   DriveArray duty_{};

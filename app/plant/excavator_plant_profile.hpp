@@ -127,6 +127,9 @@ struct ExcavatorPlantProfile : HydraulicDetails {
   BucketShape bucket;                     ///< As soil sees it.
   std::optional<DiggingProfile> digging;  ///< Ground that is cut.
   std::optional<ObstacleProfile> obstacle;
+  /// So far the machine rocks on its tracks under the full force of its bucket at the boom's end,
+  /// see RockingBase; 0: the ground is firm.
+  double rocking_rad = 0.0;
 
   // No source gives the figures below; each default says why it is what it is.
 

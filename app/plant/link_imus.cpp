@@ -47,6 +47,11 @@ LinkImuModel::Moment LinkImuModel::moment_of(const ExcavatorPlant& plant) const 
   Moment moment;
   moment.swing_rad = plant.swing_rad();
   const Eigen::Vector2d ahead(std::cos(moment.swing_rad), std::sin(moment.swing_rad));
+  const RockingBase* const rocking = plant.rocking();
+  const double base_rad = rocking != nullptr ? rocking->angle_rad() : 0.0;
+  const auto on_ground = [&](const Eigen::Vector2d& at_m) {
+    return rocking != nullptr ? rocking->on_ground(at_m) : at_m;
+  };
   Eigen::Vector2d pin_m = geometry_.boom_foot_m;
   double link_rad = 0.0;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
@@ -59,13 +64,15 @@ LinkImuModel::Moment LinkImuModel::moment_of(const ExcavatorPlant& plant) const 
                                              Eigen::Vector2d(geometry_.arm_length_m, 0.0));
       body_rad = link_rad + linkage_.rocker_angle(joint[i]);
     }
-    const Eigen::Vector2d place = foot_m + Rotation::by(body_rad).apply(imu_.mount[i].at_m);
-    moment.angle_rad[i] = body_rad;
+    const Eigen::Vector2d place =
+        on_ground(foot_m + Rotation::by(body_rad).apply(imu_.mount[i].at_m));
+    moment.angle_rad[i] = body_rad + base_rad;
     moment.place_m[i] = {place.x() * ahead.x(), place.x() * ahead.y(), place.y()};
     link_rad += joint[i];
     const double length_m = i == kBoom ? geometry_.boom_length_m : geometry_.arm_length_m;
     pin_m += Rotation::by(link_rad).apply({length_m, 0.0});
   }
+  moment.angle_rad[kBodyImu] = base_rad;
   moment.place_m[kBodyImu].setZero();
   return moment;
 }

@@ -73,7 +73,8 @@ LinkageDynamics::LinkageDynamics(const ExcavatorPlantProfile& profile)
       empty_bucket_(profile.link[kBucket]),
       link_length_{profile.machine.geometry.boom_length_m, profile.machine.geometry.arm_length_m,
                    profile.machine.geometry.bucket_length_m},
-      gravity_(profile.gravity_mps2) {
+      gravity_(profile.gravity_mps2),
+      boom_foot_m_(profile.machine.geometry.boom_foot_m) {
   set_pivot_inertias();
   if (profile.machine.has_swing()) {
     swing_.emplace(profile);
@@ -151,9 +152,16 @@ JointArray LinkageDynamics::generalised_force(const JointArray& rate_radps) cons
   const JointArray rate = link_rates(rate_radps);
   JointArray force{};
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    force[i] = -gravity_ * bodies_.first_moment[i].x() + cross(bodies_.link[i], tip_force_);
+    force[i] =
+        -gravity_ * base_.apply(bodies_.first_moment[i]).x() + cross(bodies_.link[i], tip_force_);
   }
   force[kBucket] += bucket_moment_nm_;
+  if (base_acceleration_ != 0.0) {
+    const JointArray by_links = links_moments();
+    for (std::size_t i = 0; i < kAxisCount; ++i) {
+      force[i] -= base_acceleration_ * (by_links[i] + boom_foot_m_.dot(bodies_.first_moment[i]));
+    }
+  }
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     for (std::size_t j = i + 1; j < kAxisCount; ++j) {
       const double arm = cross(bodies_.link[i], bodies_.first_moment[j]);
@@ -265,6 +273,48 @@ double LinkageDynamics::tip_power_w() const {
     power += mean[i] * turned(bodies_.link[i]).dot(tip_force_);
   }
   return power;
+}
+
+JointArray LinkageDynamics::links_moments() const {
+  const Matrix3 joints = mass_matrix();
+  const JointArray all = {joints[0][0], joints[1][0], joints[2][0]};
+  return {all[0] - all[1], all[1] - all[2], all[2]};
+}
+
+double LinkageDynamics::mass_kg() const {
+  return body_[kBoom].mass_kg + body_[kArm].mass_kg + body_[kBucket].mass_kg;
+}
+
+BaseLoad LinkageDynamics::base_load() const {
+  const Matrix3 matrix = mass_matrix();
+  const JointArray rate = link_rates(rates());
+  const JointArray turns = link_rates(acceleration_);
+  BaseLoad load;
+  // Sum of mass times acceleration, and its moment about the boom foot.
+  Eigen::Vector2d pushes_n = Eigen::Vector2d::Zero();
+  Eigen::Vector2d moments_kgm = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    load.links_moment_nm += matrix[0][i] * acceleration_[i];
+    pushes_n +=
+        turns[i] * turned(bodies_.first_moment[i]) - rate[i] * rate[i] * bodies_.first_moment[i];
+    moments_kgm += bodies_.first_moment[i];
+    for (std::size_t j = i + 1; j < kAxisCount; ++j) {
+      const double arm = cross(bodies_.link[i], bodies_.first_moment[j]);
+      load.links_moment_nm -= arm * (rate[j] * rate[j] - rate[i] * rate[i]);
+    }
+  }
+  load.links_moment_nm += cross(boom_foot_m_, pushes_n);
+  load.inertia_kgm2 =
+      matrix[0][0] + 2.0 * boom_foot_m_.dot(moments_kgm) + mass_kg() * boom_foot_m_.squaredNorm();
+  return load;
+}
+
+double LinkageDynamics::weight_moment_nm() const {
+  Eigen::Vector2d moments_kgm = mass_kg() * boom_foot_m_;
+  for (const Eigen::Vector2d& each : bodies_.first_moment) {
+    moments_kgm += each;
+  }
+  return -gravity_ * base_.apply(moments_kgm).x();
 }
 
 double LinkageDynamics::energy_j() const {

@@ -9,6 +9,7 @@
 #include "app/plant/cylinder.hpp"
 #include "app/plant/excavator_plant_profile.hpp"
 #include "app/plant/linkage_geometry.hpp"
+#include "app/plant/rocking_base.hpp"
 
 namespace graben::plant {
 
@@ -92,6 +93,17 @@ class LinkageDynamics {
   [[nodiscard]] double tip_power_w() const;
   [[nodiscard]] TipPose tip() const { return geometry_.tip(angle_); }
 
+  /// What the links stand on is turned by so much, and turns faster; 0 unless told.
+  void set_base(double angle_rad, double acceleration_radps2) {
+    base_ = Rotation::by(angle_rad);
+    base_acceleration_ = acceleration_radps2;
+  }
+  /// Of the links about the middle of the tracks, as they moved in the last step: inertia, and the
+  /// rate of their moment of momentum in the frame of what they stand on.
+  [[nodiscard]] BaseLoad base_load() const;
+  /// Of the links' weight about the middle of the tracks, N m.
+  [[nodiscard]] double weight_moment_nm() const;
+
  private:
   using Matrix3 = std::array<std::array<double, 3>, 3>;
 
@@ -104,6 +116,9 @@ class LinkageDynamics {
   void update();
   void set_pivot_inertias();
   [[nodiscard]] Matrix3 mass_matrix() const;
+  /// Of each link, where all turn alike: what its own absolute angle feels.
+  [[nodiscard]] JointArray links_moments() const;
+  [[nodiscard]] double mass_kg() const;
   [[nodiscard]] JointArray generalised_force(const JointArray& rate_radps) const;
   void add_friction(const Matrix3& inverse, const std::array<PistonLoad, kAxisCount>& load,
                     double step_s, JointArray& rate_radps);
@@ -115,6 +130,9 @@ class LinkageDynamics {
   JointArray link_length_;
   JointArray pivot_inertia_{};  ///< Of each link about its pin, what it carries as a point mass.
   double gravity_;
+  Eigen::Vector2d boom_foot_m_;  ///< From the middle of the tracks.
+  Rotation base_;
+  double base_acceleration_ = 0.0;
   Eigen::Vector2d tip_force_ = Eigen::Vector2d::Zero();
   double bucket_moment_nm_ = 0.0;
 

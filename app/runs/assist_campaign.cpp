@@ -90,10 +90,13 @@ const CampaignKind& assist_kind() {
 CampaignOutcome campaign_assist(const CampaignOptions& options,
                                 const machines::SimulatedExcavator& nominal,
                                 const AssistTrial& trial, const Progress& progress) {
+  TaskScenario tried;
+  tried.errors = trial.errors;
+  tried.found = trial.found;
+  tried.imus = trial.imus;
   const auto draw = [&](std::uint64_t seed) {
     const AssistOptions run = assist_draw(trial, seed);
-    TaskScenario scenario;
-    scenario.errors = trial.errors;
+    TaskScenario scenario = tried;
     scenario.seed = run.seed;
     const AssistResult result = run_assist(arranged(nominal, scenario), run);
     // What did not come to its end keeps its figures.
@@ -110,9 +113,9 @@ CampaignOutcome campaign_assist(const CampaignOptions& options,
   }
   CampaignOutcome outcome = run_campaign(
       options, assist_kind(),
-      fmt::format("assist {} {:08x}{}, {} cells, {}, errors {}{}", nominal.name, nominal.hash,
+      fmt::format("assist {} {:08x}{}, {} cells, {}, {}{}", nominal.name, nominal.hash,
                   nominal.simulated.empty() ? "" : " as " + nominal.simulated, trial.cells(),
-                  trial.marked ? "marked" : "no mark", trial.errors, grounds),
+                  trial.marked ? "marked" : "no mark", machine_text(tried), grounds),
       draw, progress);
   outcome.table += cell_table(read_campaign(options.summary, assist_kind()), trial);
   return outcome;

@@ -94,6 +94,8 @@ struct AssistTrial {
   bool marked = true;
   /// In the place of the designs that are planes; none: these.
   std::vector<std::shared_ptr<const AssistGround>> grounds;
+  machines::Found found;  ///< What the machine is told to be.
+  bool imus = false;      ///< As machines::Scenario has it.
 
   [[nodiscard]] std::size_t designs() const {
     return grounds.empty() ? kAssistDesigns.size() : grounds.size();

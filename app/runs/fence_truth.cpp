@@ -89,7 +89,8 @@ bool stands_on(const Fence& fence) {
 
 }  // namespace
 
-FenceTruth::FenceTruth(const plant::ExcavatorPlant& plant) : swing_rad_(plant.swing_rad()) {
+FenceTruth::FenceTruth(const plant::ExcavatorPlant& plant)
+    : swing_rad_(plant.swing_rad()), rocking_(plant.rocking()) {
   const plant::ExcavatorPlantProfile& profile = plant.profile();
   const ExcavatorGeometry& geometry = profile.machine.geometry;
   const ExcavatorBody& body = geometry.body;
@@ -200,8 +201,9 @@ void FenceTruth::add_counterweight(const Counterweight& weight) {
 
 Eigen::Vector3d FenceTruth::in_ground(const Eigen::Vector2d& in_plane_m, double left_m) const {
   const Eigen::Vector2d ahead = heading(swing_rad_);
-  return {in_plane_m.x() * ahead.x() - left_m * ahead.y(),
-          in_plane_m.x() * ahead.y() + left_m * ahead.x(), in_plane_m.y()};
+  const Eigen::Vector2d at_m = rocking_ != nullptr ? rocking_->on_ground(in_plane_m) : in_plane_m;
+  return {at_m.x() * ahead.x() - left_m * ahead.y(), at_m.x() * ahead.y() + left_m * ahead.x(),
+          at_m.y()};
 }
 
 }  // namespace graben::runs

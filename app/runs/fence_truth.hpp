@@ -43,6 +43,7 @@ class FenceTruth {
   [[nodiscard]] Eigen::Vector3d in_ground(const Eigen::Vector2d& in_plane_m, double left_m) const;
 
   double swing_rad_;
+  const plant::RockingBase* rocking_;  ///< Of the plant; null: firm ground.
   bool known_;  ///< The controller knows the outline; else teeth and pins are all that counts.
   std::vector<Ball> edge_;
   std::vector<Ball> links_;  ///< With the bucket.

@@ -25,7 +25,7 @@ struct Key {
 };
 
 /// A deadband narrower than the bypass' closing would keep the bypass partly closed at neutral.
-constexpr std::array<Key, 15> kKeys = {{
+constexpr std::array<Key, 16> kKeys = {{
     {"oil", "GPa", 0.1, 100.0, &Found::bulk_modulus_gpa},
     {"exponent", "", 0.5, 4.0, &Found::opening_exponent},
     {"dead_band", "", plant::kBypassClosingTravel, 0.6, &Found::deadband_ratio},
@@ -41,6 +41,7 @@ constexpr std::array<Key, 15> kKeys = {{
     {"dead_band_more", "", 0.0, 0.1, &Found::dead_band_more_ratio},
     {"stroke_zero_more", "m", -0.03, 0.03, &Found::stroke_zero_more_m},
     {"stroke_age", "s", 0.0, 0.5, &Found::stroke_age_s},
+    {"rocking", "deg", 0.0, 5.0, &Found::rocking_deg},
 }};
 
 std::string with_unit(const std::string& text, const Key& key) {

@@ -7,6 +7,7 @@ namespace graben::machines {
 namespace {
 
 constexpr double kPaPerGpa = 1e9;
+constexpr double kRadPerDeg = 0.017453292519943295;
 
 /// Every figure takes its number from the stream, whatever then becomes of it: so none depends on
 /// what is told, and none on another.
@@ -100,6 +101,7 @@ void make_as_found(plant::ExcavatorPlantProfile& plant, const FoundRanges& range
   for (double& age_s : plant.sensors.stroke_age_s) {
     age_s = finding.around(told.stroke_age_s, age_s, 0.0);
   }
+  plant.rocking_rad = kRadPerDeg * finding.around(told.rocking_deg, 0.0, 0.0);
 }
 
 }  // namespace graben::machines

@@ -60,6 +60,8 @@ struct Found {
   std::optional<Told> stroke_zero_more_m;    ///< Shown too much.
   std::optional<Told> stroke_age_s;          ///< A stroke shows what was so long ago.
   std::optional<Told> bypass_leak_factor;    ///< What a closed bypass still lets through.
+  /// Soft ground: so far the machine rocks under the bucket's full force.
+  std::optional<Told> rocking_deg;
 };
 
 /// Draws what is found from the plant's seed if it `is_drawn`; what is told goes before that, and

@@ -278,8 +278,11 @@ TEST(what_wears_comes_on_top) {
   scenario.found.dead_band_more_ratio = 0.02;
   scenario.found.stroke_zero_more_m = -0.005;
   scenario.found.stroke_age_s = 0.03;
+  scenario.found.rocking_deg = 1.5;
   const plant::ExcavatorPlantProfile plant = arranged(nominal(), scenario).plant;
   const plant::ExcavatorPlantProfile plain = plant_of(Errors::kAll, 7);
+  assert_near(plain.rocking_rad, 0.0, 0.0);
+  assert_near(plant.rocking_rad, 0.0261799, 1e-7);
   assert_near(plant.piston_leak_m3pspa, 3.0 * plain.piston_leak_m3pspa, 1e-20);
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     assert_near(plant.spool[i].retract.deadband_ratio, plain.spool[i].retract.deadband_ratio + 0.02,
