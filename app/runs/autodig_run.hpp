@@ -131,6 +131,10 @@ struct AutodigSummary {
   double tip_force_within_ratio = kAbsent;
   double tip_force_error_n = kAbsent;
   double tip_force_spread = kAbsent;
+  /// True force against the line of a cut in layers, over the one that its plan allows: RMS of the
+  /// time that it cuts, in which less counts as none, and largest.
+  double cut_force_over_n = kAbsent;
+  double cut_force_over_max_n = kAbsent;
   /// Of the payload as it was told last before each dump, from the second one on, when the empty
   /// bucket has been back once: largest error, of the bucket's heaped capacity of this soil
   /// loose, share of them that are within 2 % of it, and RMS of error over deviation.

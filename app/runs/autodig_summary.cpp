@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/machines/task_text.hpp"
+#include "app/runs/cut_force_figures.hpp"
 #include "app/runs/load_figures.hpp"
 #include "firmware/excavator/motion/program/task_run.hpp"
 
@@ -167,6 +168,12 @@ FigureTable<AutodigSummary> task_figures() {
        [](const S& s) { return s.tip_force_error_n; }},
       {{"tip_force_spread", "the same over the deviation told", kRatio},
        [](const S& s) { return s.tip_force_spread; }},
+      {{"cut_force_over_n", "force on a cut's teeth over its plan's, RMS", kNewtons,
+        "cut_force_over_n"},
+       [](const S& s) { return s.cut_force_over_n; }},
+      {{"cut_force_over_max_n", "force on a cut's teeth over its plan's, max", kNewtons,
+        "cut_force_over_max_n"},
+       [](const S& s) { return s.cut_force_over_max_n; }},
       {{"payload_error_ratio", "payload told, error of the capacity, max", kPercent,
         "payload_error_ratio"},
        [](const S& s) { return s.payload_error_ratio; }},
@@ -194,6 +201,7 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
   Steps steps(program);
   ExcavatorCalmCount calm(result.spool_edges);
   LoadFigures load(result.capacity_kg);
+  CutForceFigures cut_force(program);
   double lambda_sum = 0.0;
   long in_steps = 0;
   summary.lambda_min = 1.0;
@@ -205,6 +213,7 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
     summary.cut_m3 = std::fmax(summary.cut_m3, sample.cut_m3);
     steps.add(sample);
     load.add(sample);
+    cut_force.add(sample);
     if (!in_step(sample)) {
       calm.pause();
       continue;
@@ -219,6 +228,7 @@ AutodigSummary summarise(const TaskProgram& program, const AutodigResult& result
     }
   }
   load.tell(summary);
+  cut_force.tell(summary);
   // What is dug in layers has no lines of its own.
   const bool has_lines = !in_layers(program);
   summary.max_error_true_m = has_lines ? error_true.max() : kAbsent;

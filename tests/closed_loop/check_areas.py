@@ -46,6 +46,8 @@ def areas(digger, cells):
         assert 0.0 <= dug["over_cut_max_m"] <= OVER_CUT_MM * MM, f"{what}: {dug['over_cut_max_m']}"
         assert dug["built_within_ratio"] >= BUILT, f"{what}: {dug['built_within_ratio']}"
         assert dug["max_error_true_m"] is None, dug["max_error_true_m"]
+        # The teeth feel some soil over what the plan allows, never a multiple of what the machine has.
+        assert 0.0 < dug["cut_force_over_n"] < dug["cut_force_over_max_n"] < 200e3, f"{what}: {dug['cut_force_over_max_n']}"
         as_built(digger, dug, what)
         rounds = 1 + max(step["round"] for step in dug["steps"])
         assert 3 <= rounds <= 40, f"{what}: {rounds} rounds"
@@ -53,7 +55,7 @@ def areas(digger, cells):
     air = digger.figures(*shallow)
     assert air["built_map"] == [] and air["built_median_m"] is None, air["built_map"]
     assert "built" not in report_page.setup_of(digger.content("autodig.html"))["run"]
-    assert air["cut_m3"] is None and air["over_cut_max_m"] < 10 * MM, air["over_cut_max_m"]
+    assert air["cut_force_over_n"] is None and air["cut_m3"] is None and air["over_cut_max_m"] < 10 * MM, air["over_cut_max_m"]
     for line, needle in (
             ('kind = "moat", far = 6.6, near = 4.4, depth = 0.8', "area.kind"),
             ('kind = "pit", far = 6.6, near = 4.4, depth = 0.8', "area.width"),

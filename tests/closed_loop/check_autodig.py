@@ -25,7 +25,7 @@ FIGURES = {
     "limit_share", "lambda_variation_ps", "spool_travel_ps", "spool_reversals_ps",
     "teeth_jerk_rms_mps3", "energy_per_round_j", "energy_j", "energy_bypass_relief_share",
     "swash_mean", "duty_travel_ps", "duty_sign_changes_ps", "over_cut_max_m", "cut_m3", "cut_m3ph", "fill_max_m3", "tip_force_within_ratio",
-    "tip_force_error_n", "tip_force_spread", "payload_error_ratio", "payload_spread",
+    "tip_force_error_n", "tip_force_spread", "cut_force_over_n", "cut_force_over_max_n", "payload_error_ratio", "payload_spread",
     "built_within_ratio", "built_high_m", "built_low_m", "built_left_m3", "built_over_cut_m3",
     "built_median_m", "built_map", "full_rounds_ratio", "payload_within_ratio", "energy_per_m3_j"}
 DRIVES = {"boom", "arm", "bucket", "swing"}
