@@ -19,23 +19,31 @@ Eigen::Vector2d heading(double angle_rad) { return {std::cos(angle_rad), std::si
 
 double share(int i, int of) { return static_cast<double>(i) / of; }
 
+/// Of lengths of metres, whose squares neither overflow nor vanish: std::hypot was a sixth of a run
+/// past fences.
+double length_m(double one_m, double other_m) {
+  return std::sqrt(one_m * one_m + other_m * other_m);
+}
+
 /// Of what goes `out_m` beyond a shape in plan and `up_m` above or below it; both below 0 inside.
 double outside_m(double out_m, double up_m) {
-  const double apart_m = std::hypot(std::max(out_m, 0.0), std::max(up_m, 0.0));
-  return apart_m > 0.0 ? apart_m : std::max(out_m, up_m);
+  const double most_m = std::max(out_m, up_m);
+  return most_m > 0.0 ? length_m(std::max(out_m, 0.0), std::max(up_m, 0.0)) : most_m;
 }
 
 double to_cylinder_m(const Fence& fence, const Eigen::Vector3d& at_m) {
   const Eigen::Vector3d off_m = at_m - fence.centre_m;
-  return outside_m(std::hypot(off_m.x(), off_m.y()) - fence.half_m.x(),
+  return outside_m(length_m(off_m.x(), off_m.y()) - fence.half_m.x(),
                    std::abs(off_m.z()) - fence.half_m.z());
 }
 
 double to_box_m(const Fence& fence, const Eigen::Vector3d& at_m) {
   const Eigen::Vector3d off_m = at_m - fence.centre_m;
-  const double turn_rad = std::atan2(fence.normal.y(), fence.normal.x());
-  const double first_m = std::cos(turn_rad) * off_m.x() + std::sin(turn_rad) * off_m.y();
-  const double second_m = std::cos(turn_rad) * off_m.y() - std::sin(turn_rad) * off_m.x();
+  const double level = length_m(fence.normal.x(), fence.normal.y());
+  const Eigen::Vector2d way =
+      level > 0.0 ? Eigen::Vector2d(fence.normal.head<2>() / level) : Eigen::Vector2d::UnitX();
+  const double first_m = way.x() * off_m.x() + way.y() * off_m.y();
+  const double second_m = way.x() * off_m.y() - way.y() * off_m.x();
   const double level_m =
       outside_m(std::abs(first_m) - fence.half_m.x(), std::abs(second_m) - fence.half_m.y());
   return outside_m(level_m, std::abs(off_m.z()) - fence.half_m.z());
@@ -90,7 +98,7 @@ bool stands_on(const Fence& fence) {
 }  // namespace
 
 FenceTruth::FenceTruth(const plant::ExcavatorPlant& plant)
-    : swing_rad_(plant.swing_rad()), rocking_(plant.rocking()) {
+    : ahead_(heading(plant.swing_rad())), rocking_(plant.rocking()) {
   const plant::ExcavatorPlantProfile& profile = plant.profile();
   const ExcavatorGeometry& geometry = profile.machine.geometry;
   const ExcavatorBody& body = geometry.body;
@@ -200,9 +208,8 @@ void FenceTruth::add_counterweight(const Counterweight& weight) {
 }
 
 Eigen::Vector3d FenceTruth::in_ground(const Eigen::Vector2d& in_plane_m, double left_m) const {
-  const Eigen::Vector2d ahead = heading(swing_rad_);
   const Eigen::Vector2d at_m = rocking_ != nullptr ? rocking_->on_ground(in_plane_m) : in_plane_m;
-  return {at_m.x() * ahead.x() - left_m * ahead.y(), at_m.x() * ahead.y() + left_m * ahead.x(),
+  return {at_m.x() * ahead_.x() - left_m * ahead_.y(), at_m.x() * ahead_.y() + left_m * ahead_.x(),
           at_m.y()};
 }
 

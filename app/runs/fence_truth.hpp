@@ -42,7 +42,7 @@ class FenceTruth {
   /// x ahead of the swing axis, y above the ground, and to the left of the machine's plane.
   [[nodiscard]] Eigen::Vector3d in_ground(const Eigen::Vector2d& in_plane_m, double left_m) const;
 
-  double swing_rad_;
+  Eigen::Vector2d ahead_;              ///< Where the swing is turned, in plan.
   const plant::RockingBase* rocking_;  ///< Of the plant; null: firm ground.
   bool known_;  ///< The controller knows the outline; else teeth and pins are all that counts.
   std::vector<Ball> edge_;

@@ -166,7 +166,10 @@ def is_changed(name: str, body: str) -> bool:
         return True
     files = [word for word in re.findall(r"[\w./-]+", body) if is_file_of(word)]
     called = ["run", "toolchain", "app/cli", "app/machines", "CMakeLists.txt", "CMakePresets.json"]
-    return bool(changed_since.below(names, [word.removeprefix("./").rstrip("/") for word in files] + called))
+    # What a document says of profiles and programs changes none of them.
+    programs = {changed for changed in names if not changed.endswith(".md")}
+    named = [word.removeprefix("./").rstrip("/") for word in files]
+    return bool(changed_since.below(names, named) or changed_since.below(programs, called))
 
 
 parser = tree.arguments(__doc__)
