@@ -47,7 +47,7 @@ void go_on(Easing easing, BlockedState& state) {
 }
 
 /// Of a blocked drive.
-void ease_pressure(double relief_pa, double period_s, BlockedState& state) {
+void ease_pressure(double relief_pa, double stroke_m, double period_s, BlockedState& state) {
   state.for_s += period_s;
   switch (state.easing) {
     case Easing::kPushes:
@@ -59,6 +59,7 @@ void ease_pressure(double relief_pa, double period_s, BlockedState& state) {
     case Easing::kLetsOff:
       if (state.inlet_pa <= kBlockedLetOffShare * relief_pa || state.for_s >= kBlockedLetsOff_s) {
         go_on(Easing::kRests, state);
+        state.rests_at_m = stroke_m;
       }
       return;
     case Easing::kRests:
@@ -83,12 +84,14 @@ void follow(const DriveRow& drive, const ValidDrive& seen, double asked_mps, dou
   if (state.side == 0) {
     return;
   }
-  const bool gave_way = state.side * (seen.stroke_m - state.held_at_m) > kBlockedGaveWay_m;
+  // What rests goes towards its load only where that is gone.
+  const double from_m = state.easing == Easing::kRests ? state.rests_at_m : state.held_at_m;
+  const bool gave_way = state.side * (seen.stroke_m - from_m) > kBlockedGaveWay_m;
   if (gave_way || (state.easing == Easing::kPushes && !held)) {
     begin(state.way, state);
     return;
   }
-  ease_pressure(drive.watch.relief_pa, period_s, state);
+  ease_pressure(drive.watch.relief_pa, seen.stroke_m, period_s, state);
 }
 
 }  // namespace

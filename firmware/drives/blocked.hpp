@@ -12,18 +12,19 @@ enum class Easing : std::uint8_t { kPushes, kLetsOff, kRests };
 
 /// State of one drive from cycle to cycle.
 struct BlockedState {
-  int way = 0;             ///< Where it is to go; 0: nowhere.
-  double inlet_pa = 0.0;   ///< Low-passed, of the side that is fed.
-  double asked_mps = 0.0;  ///< That way, low-passed.
-  double speed_mps = 0.0;  ///< The same of what it does.
-  double stroke_m = 0.0;   ///< Measured.
-  double held_at_m = 0.0;  ///< Stroke at which it was blocked.
-  double stood_s = 0.0;    ///< That it has strained and stood.
-  double for_s = 0.0;      ///< That it has pushed, let off or rested.
-  double less = 0.0;       ///< 0 .. 1: share of the feedback that is left away.
-  int side = 0;            ///< To which it is blocked; 0: it is not.
-  int last_side = 0;       ///< To which it is, or was last.
-  double wary_s = 0.0;     ///< That its load may yet give way.
+  int way = 0;              ///< Where it is to go; 0: nowhere.
+  double inlet_pa = 0.0;    ///< Low-passed, of the side that is fed.
+  double asked_mps = 0.0;   ///< That way, low-passed.
+  double speed_mps = 0.0;   ///< The same of what it does.
+  double stroke_m = 0.0;    ///< Measured.
+  double held_at_m = 0.0;   ///< Stroke at which it was blocked.
+  double rests_at_m = 0.0;  ///< Stroke at which it began to rest.
+  double stood_s = 0.0;     ///< That it has strained and stood.
+  double for_s = 0.0;       ///< That it has pushed, let off or rested.
+  double less = 0.0;        ///< 0 .. 1: share of the feedback that is left away.
+  int side = 0;             ///< To which it is blocked; 0: it is not.
+  int last_side = 0;        ///< To which it is, or was last.
+  double wary_s = 0.0;      ///< That its load may yet give way.
   /// The fed side has most of what its pump can give, as it has where hardly any oil flows.
   bool strains = false;
   Easing easing = Easing::kPushes;
@@ -43,8 +44,8 @@ struct BlockedAsk {
 ///
 /// Oil at a pump's relief is a spring that throws the tool when its load gives way. Blocked for a
 /// tenth of a second at 0.85 of the relief's pressure and more, a drive lets off to 0.75 of it,
-/// rests for 1.5 s, and pushes again. While it does so it is no longer blocked only when it has
-/// gone 5 mm.
+/// rests for 3 s, and pushes again. While it does so it is no longer blocked only when it has gone
+/// 5 mm beyond where it was held, or where it began to rest.
 void next_blocked(DriveRows drives, Span<const ValidDrive> seen, const BlockedAsk& ask,
                   double period_s, Span<BlockedState> state);
 
@@ -53,7 +54,7 @@ void next_blocked(DriveRows drives, Span<const ValidDrive> seen, const BlockedAs
 /// slowly while it lets off; nothing while it rests.
 [[nodiscard]] double eased_mps(const BlockedState& state, double wanted_mps, double corrected_mps);
 
-/// Some drive lets its pressure off or rests: all others are to stand.
+/// Some drive lets its pressure off or rests: all others are to go no further.
 [[nodiscard]] bool any_eases(Span<const BlockedState> state);
 
 /// Some drive had to let its pressure off within the last 6 s and has not come 20 mm past the

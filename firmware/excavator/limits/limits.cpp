@@ -16,7 +16,8 @@ void ease_blocked(const ExcavatorModel& machine, Span<const BlockedState> blocke
   motion.towards_mps = motion.corrected_mps;
   motion.eases = any_eases(blocked);
   if (motion.eases) {
-    motion.corrected_mps.setZero();
+    // The oil of all drives gives way with the one that lets off, and would take the teeth along.
+    motion.corrected_mps = kEasedCorrects * (motion.corrected_mps - motion.wanted_mps);
   }
   for (int i = 0; i < machine.drives.count(); ++i) {
     motion.corrected_mps[i] = eased_mps(blocked[i], motion.wanted_mps[i], motion.corrected_mps[i]);

@@ -54,6 +54,9 @@ void next_pump_demand(const ExcavatorProfile& profile, const McvMachine& valve, 
     const double short_of = std::max(0.0, ask.short_share[j] - kShortFrom);
     lacks =
         std::clamp(lacks + period_s * (kShortUp_ps * short_of - kShortDown_ps), 0.0, kShortMost);
+    if (ask.blocked) {
+      lacks = 0.0;  // More oil only throws the tool further when its load gives way.
+    }
     const double wanted =
         std::min(std::max(flow_m3ps[j] / full_m3ps[j], profile.demand_swash.least_ratio) + lacks,
                  most_ratio);

@@ -180,7 +180,7 @@ TEST(at_the_relief_it_lets_off) {
   assert_near(eased_mps(drive.state, kWanted_mps, kAsked_mps), 0.0, 1e-12);
   assert_near(eased_mps(drive.state, kWanted_mps, -kAsked_mps), -kAsked_mps, 1e-12);
   assert_int_equal(drive.state.side, 1);
-  assert_in_range(drive.until(false), 148, 152);
+  assert_in_range(drive.until(false), 298, 302);
   assert_true(drive.state.easing == Easing::kPushes);
   assert_false(any_eases({&drive.state, 1}));
 }
@@ -221,6 +221,23 @@ TEST(it_lets_off_only_what_is_hard) {
   unknown.row.watch.relief_pa = 0.0;
   unknown.push(0.95 * kRelief_pa);
   assert_int_equal(unknown.until(true), -1);
+}
+
+/// What has let off rests short of its load; there it counts from where it began to rest.
+TEST(what_has_let_off_is_given_way_to_from_where_it_rests, Drive drive) {
+  drive = blocked_drive(0.95 * kRelief_pa);
+  assert_true(drive.until(Easing::kLetsOff) > 0);
+  drive.speed_mps = -0.03;
+  repeat(30, [&] { drive.step(); });
+  drive.speed_mps = 0.0;
+  drive.push(0.4 * kRelief_pa);
+  assert_true(drive.until(Easing::kRests) > 0);
+  drive.seen.stroke_m += 0.0045;
+  drive.step();
+  assert_true(drive.state.side != 0);
+  drive.seen.stroke_m += 0.001;
+  drive.step();
+  assert_int_equal(drive.state.side, 0);
 }
 
 /// A load that gives way throws the drive: known in the cycle in which it has gone 5 mm.

@@ -186,6 +186,11 @@ TEST(a_drive_that_falls_short_gets_more, Digging digging) {
   digging.step(false);
   digging.step();
   assert_true(digging.demand.short_ratio[0] < 0.02);
+  // A rock's way of falling short is not helped by oil.
+  digging.settled(0);
+  digging.blocked = true;
+  digging.step();
+  assert_near(digging.demand.short_ratio[0], 0.0, 0.0);
 }
 
 /// Up fast, down slowly.
