@@ -146,7 +146,8 @@ McvActuator read_actuator(const Node& node, int pump_count) {
     actuator.retract_outlet_share = share[1].below_one();
   }
   if (node.has("bypass_closes_at")) {
-    actuator.bypass_closes_at = node.at("bypass_closes_at").positive();
+    const double opening = node.at("bypass_closes_at").positive();
+    actuator.bypass_closes_at = {opening, opening};
   }
   actuator.extend = read_table(node.at("c_extend"));
   actuator.retract = read_table(node.at("c_retract"));

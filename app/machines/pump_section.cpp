@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/machines/axis_names.hpp"
+
 namespace graben::machines {
 namespace {
 
@@ -124,6 +126,30 @@ PumpProfile read_pump(TomlReader& reader, unsigned index) {
   return pump;
 }
 
+/// A side's own opening before that of all.
+void read_closing(TomlReader& reader, const std::string& axis, BypassClosing& at) {
+  const double of_all =
+      reader.number_or(0.0, "valve.bypass.closes_at", {0.0, 1.0, ""},
+                       "opening at which it is closed, evenly from the dead band's edge on; 0: "
+                       "closed wherever the spool is open; only with pumps of kind negative_flow");
+  const auto of_side = [&](const char* side) {
+    const std::string key = fmt::format("valve.answer.{}.{}.bypass_closes_at", axis, side);
+    if (!reader.has(key)) {
+      return of_all;
+    }
+    const double opening = reader.number(key, {0.01, 1.0, ""},
+                                         "opening at which the bypass is closed on this side, "
+                                         "instead of valve.bypass.closes_at, which is above 0");
+    if (of_all == 0.0 && !reader.lists()) {
+      reader.fail(key, fmt::format("{}; allowed: only where valve.bypass.closes_at is above 0, it "
+                                   "is 0 or missing",
+                                   opening));
+    }
+    return opening;
+  };
+  at = {of_side(kSideNames[0]), of_side(kSideNames[1])};
+}
+
 }  // namespace
 
 void read_pumps(TomlReader& reader, ExcavatorProfile& profile) {
@@ -152,10 +178,7 @@ void read_bypass(TomlReader& reader, const std::string& axis, PumpKind kind, Spo
     spool.bypass_open = spool.bypass_closed = kClosedCentre;
   }
   if (kind == PumpKind::kNegativeFlow || reader.lists()) {
-    spool.bypass_closes_at = reader.number_or(
-        0.0, "valve.bypass.closes_at", {0.0, 1.0, ""},
-        "opening at which it is closed, evenly from the dead band's edge on; 0: closed wherever "
-        "the spool is open; only with pumps of kind negative_flow");
+    read_closing(reader, axis, spool.bypass_closes_at);
   }
 }
 

@@ -58,7 +58,7 @@ double coefficient_factor(const ExcavatorProfile& profile, int axis, bool extend
 }
 
 void know_side(const ExcavatorProfile& profile, int axis, bool extends, const SideTruth& truth,
-               identify::SideEstimate& side) {
+               double bypass_closes_at, identify::SideEstimate& side) {
   const SpoolProfile& spool = profile.valve.spool[static_cast<unsigned>(axis)];
   side.edge = known(truth.edge_ratio);
   side.softness = known(std::max(0.25 * truth.softness_ratio, 1e-3));
@@ -67,6 +67,9 @@ void know_side(const ExcavatorProfile& profile, int axis, bool extends, const Si
   side.out_area_factor =
       known(truth.out_m2 / (extends ? spool.extend_out_m2 : spool.retract_out_m2));
   side.dead_time_s = known(truth.dead_time_s);
+  if (profile.pump[0].regulator.kind == PumpKind::kNegativeFlow) {
+    side.bypass_closed_at = truth.start_ratio + bypass_closes_at * (1.0 - truth.start_ratio);
+  }
   side.driven_least = truth.start_ratio;
   side.driven_most = 1.0;
   for (const double opening : identify::kTableOpenings) {
@@ -133,8 +136,8 @@ identify::MachineEstimate known_machine(const ExcavatorProfile& profile,
     const auto k = static_cast<unsigned>(axis);
     const DriveTruth& from = truth.drive[k];
     identify::DriveEstimate& drive = machine.drive[k];
-    know_side(profile, axis, true, from.extend, drive.extend);
-    know_side(profile, axis, false, from.retract, drive.retract);
+    know_side(profile, axis, true, from.extend, truth.bypass_closes_at, drive.extend);
+    know_side(profile, axis, false, from.retract, truth.bypass_closes_at, drive.retract);
     drive.pilot_lag_s = known(0.0);
     drive.spool_time_constant_s = known(0.5 * from.extend.lag_s);
     drive.stroke_zero_m = known(from.stroke_zero_m);

@@ -82,8 +82,8 @@ DriveRow cylinder_row(const ExcavatorProfile& profile, int axis, double leverage
   row.watch.unseen_m = kStrokeUnseenShare * row.watch.off_m;
   // Under an open bypass a drive stands until its line presses as hard as its load; where lambda is
   // fixed it falls behind when its pump gives too little.
-  const bool follows =
-      row.spool.bypass_closes_at == 0.0 && profile.control.lambda_policy != McvPolicy::kFixed;
+  const bool follows = !row.spool.bypass_closes_at.is_gradual() &&
+                       profile.control.lambda_policy != McvPolicy::kFixed;
   row.watch.way_m =
       follows ? std::clamp(kStrokeWayTip_m / leverage, kStrokeWayLeast_m, kStrokeWayMost_m) : 0.0;
   return row;

@@ -24,6 +24,16 @@ constexpr double rod_area_m2(int count, double bore_m, double rod_m) {
 
 enum class RegenerationSide : int { kRetract = -1, kNone = 0, kExtend = 1 };
 
+/// Opening of each side at which the bypass is closed: from the dead band's edge on it closes
+/// evenly. Both 0: it is closed wherever the spool is open, (20).
+struct BypassClosing {
+  double extend = 0.0;
+  double retract = 0.0;
+
+  [[nodiscard]] bool is_gradual() const { return extend > 0.0; }
+  [[nodiscard]] double side(bool extends) const { return extends ? extend : retract; }
+};
+
 /// One four-way directional valve with its bypass and regeneration (3.1 - 3.3).
 struct SpoolProfile {
   int pump = 0;               ///< Which pump feeds it.
@@ -33,9 +43,7 @@ struct SpoolProfile {
   double retract_out_m2 = 0.0;
   double bypass_open = 0.0;    ///< c_v,by at x = 0 of (20), m^3/(s sqrt(Pa)).
   double bypass_closed = 0.0;  ///< c_v,by at x != 0 of (20).
-  /// Opening at which the bypass is closed; from the dead band's edge on it closes evenly. 0: it is
-  /// closed wherever the spool is open, (20).
-  double bypass_closes_at = 0.0;
+  BypassClosing bypass_closes_at;
   RegenerationSide regeneration = RegenerationSide::kNone;
   double c_drain = 0.0;         ///< c_d of (15).
   double c_check = 0.0;         ///< c_r of (16).

@@ -46,6 +46,12 @@ bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
 
 bool is_share(double value) { return not_negative(value) && value < 1.0; }
 
+/// Over the opening on both sides, or at once on both.
+bool is_closing(const BypassClosing& at) {
+  return not_negative(at.extend) && not_negative(at.retract) && at.extend <= 1.0 &&
+         at.retract <= 1.0 && (at.extend > 0.0) == (at.retract > 0.0);
+}
+
 /// A flow coefficient whose resistance 1/c^2 and square are numbers too.
 bool usable(double coefficient) {
   return positive(coefficient) && positive(coefficient * coefficient) &&
@@ -69,7 +75,7 @@ McvDefect check_actuator(const McvActuator& actuator, int pump_count) {
     return McvDefect::kRegeneration;
   }
   if (!usable(actuator.bypass_open) || !usable(actuator.bypass_closed) ||
-      !not_negative(actuator.bypass_closes_at) || actuator.bypass_closes_at > 1.0) {
+      !is_closing(actuator.bypass_closes_at)) {
     return McvDefect::kBypass;
   }
   if (!is_share(actuator.extend_outlet_share) || !is_share(actuator.retract_outlet_share)) {

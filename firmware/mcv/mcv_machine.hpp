@@ -37,8 +37,8 @@ struct McvActuator {
   double bypass_open = 0.0;    ///< c_v,by at x = 0 of (20).
   double bypass_closed = 0.0;  ///< c_v,by at x != 0.
   double force_offset_n = 0.0;
-  double c_inflow_check = 0.0;    ///< Extra check valve before the spool (Remark 3); 0: none.
-  double bypass_closes_at = 0.0;  ///< Opening; 0: closed wherever the spool is open, (20).
+  double c_inflow_check = 0.0;  ///< Extra check valve before the spool (Remark 3); 0: none.
+  BypassClosing bypass_closes_at;
   /// Share of the drive force that is lost at the draining edge, whatever the opening.
   double extend_outlet_share = 0.0;
   double retract_outlet_share = 0.0;

@@ -141,11 +141,11 @@ PumpPressure by_load(const McvCircuit& circuit, unsigned pump, double lambda, do
 }
 
 /// c_v,by of (20) at an opening, where it closes over some of it.
-double bypass_at(const McvActuator& actuator, double opening) {
-  if (!(actuator.bypass_closes_at > 0.0)) {
+double bypass_at(const McvActuator& actuator, bool extends, double opening) {
+  if (!actuator.bypass_closes_at.is_gradual()) {
     return actuator.bypass_closed;
   }
-  const double closed = std::min(1.0, opening / actuator.bypass_closes_at);
+  const double closed = std::min(1.0, opening / actuator.bypass_closes_at.side(extends));
   return actuator.bypass_open + closed * (actuator.bypass_closed - actuator.bypass_open);
 }
 
@@ -164,7 +164,8 @@ double left_with_bypass(const McvCircuit& circuit, unsigned pump, double lambda,
     if (axis.moves) {
       const double coefficient =
           regulated_coefficient(axis, lambda, drive_force(axis, lambda, sqrt_pa));
-      bypass = bypass_at(actuator, axis.spool->inverse(coefficient) / axis.spool->x_last());
+      bypass = bypass_at(actuator, axis.extends,
+                         axis.spool->inverse(coefficient) / axis.spool->x_last());
     }
     resistance += orifice_resistance(bypass);
   }

@@ -29,7 +29,8 @@ struct RawActuator {
   double bypass_closed;
   double force_offset_n;
   double c_inflow_check;
-  double bypass_closes_at;
+  double extend_bypass_closes_at;
+  double retract_bypass_closes_at;
   double extend_outlet_share;
   double retract_outlet_share;
   RawTable extend;
@@ -116,7 +117,7 @@ McvMachine machine_from(const RawSolve& raw) {
                            from.bypass_closed,
                            from.force_offset_n,
                            from.c_inflow_check,
-                           from.bypass_closes_at,
+                           {from.extend_bypass_closes_at, from.retract_bypass_closes_at},
                            from.extend_outlet_share,
                            from.retract_outlet_share,
                            table_from(from.extend),
@@ -139,7 +140,8 @@ void regulate(std::uint64_t seed, RawSolve& raw) {
     pump.tank_orifice = pump.series_resistance > 0.0 ? 2.0 * pump.series_resistance : 5e-6;
   }
   for (RawActuator& actuator : raw.actuator) {
-    actuator.bypass_closes_at = seed % 2 == 0 ? 0.5 : 0.0;
+    actuator.extend_bypass_closes_at = seed % 2 == 0 ? 0.5 : 0.0;
+    actuator.retract_bypass_closes_at = seed % 2 == 0 ? 0.4 : 0.0;
     actuator.extend_outlet_share = actuator.retract_outlet_share = 0.2;
   }
 }
@@ -173,7 +175,8 @@ RawSolve raw_from(const RandomCase& sound) {
                        from.bypass_closed,
                        from.force_offset_n,
                        from.c_inflow_check,
-                       from.bypass_closes_at,
+                       from.bypass_closes_at.extend,
+                       from.bypass_closes_at.retract,
                        from.extend_outlet_share,
                        from.retract_outlet_share,
                        raw_from(from.extend),

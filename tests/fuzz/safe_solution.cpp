@@ -40,6 +40,12 @@ bool coefficient(double c) { return over_0(c) && over_0(c * c) && over_0(1.0 / (
 
 bool share(double value) { return at_least_0(value) && value < 1.0; }
 
+/// Both sides close their bypass at once, or both at an opening that there is.
+bool closing(const BypassClosing& at) {
+  const auto opening = [](double value) { return over_0(value) && value <= 1.0; };
+  return (at.extend == 0.0 && at.retract == 0.0) || (opening(at.extend) && opening(at.retract));
+}
+
 /// A pump without a relief valve sets no swash of its own.
 bool regulator(const McvPump& pump) {
   const PumpRegulator& by = pump.regulator;
@@ -76,8 +82,8 @@ bool sound(const McvMachine& machine, const McvInput& input, const LambdaRange& 
            at_least_0(a.force_offset_n) && a.extend.size() >= 2 && a.retract.size() >= 2 &&
            std::isfinite(input.velocity_mps[i]) && at_least_0(input.cap_pressure_pa[i]) &&
            at_least_0(input.rod_pressure_pa[i]);
-    good = good && at_least_0(a.bypass_closes_at) && a.bypass_closes_at <= 1.0 &&
-           share(a.extend_outlet_share) && share(a.retract_outlet_share);
+    good = good && closing(a.bypass_closes_at) && share(a.extend_outlet_share) &&
+           share(a.retract_outlet_share);
     good = good && (a.c_inflow_check == 0.0 || coefficient(a.c_inflow_check));
     good = good && (a.regeneration == RegenerationSide::kNone ||
                     (coefficient(a.c_drain) && coefficient(a.c_check) && a.c_drain < a.c_check));

@@ -170,11 +170,18 @@ void change_regulators(const ExcavatorProfile& was, const JudgedFit& fit, Change
                          pressures(was), fit.machine.regulator[j].least_swash_pa.deviation});
     }
   }
-  const double before = was.valve.spool[0].bypass_closes_at;
-  const double now = is.valve.spool[0].bypass_closes_at;
-  if (now != before) {
-    changes.push_back({"valve.bypass", "closes_at", number(now), number(before),
-                       fit.machine.bypass_closes_at.deviation});
+  for (int axis = 0; axis < is.drive_count; ++axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    for (const bool extends : {true, false}) {
+      const double before = was.valve.spool[k].bypass_closes_at.side(extends);
+      const double now = is.valve.spool[k].bypass_closes_at.side(extends);
+      if (now != before) {
+        std::string section = machines::answer_key(axis, extends);
+        section.pop_back();
+        changes.push_back({section, "bypass_closes_at", number(now), number(before),
+                           fit.machine.bypass_closes_at.deviation, axis});
+      }
+    }
   }
 }
 
@@ -293,13 +300,14 @@ std::string first_difference(const ExcavatorProfile& one, const ExcavatorProfile
   }
   for (int axis = 0; axis < one.drive_count; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
-    if (!close(one.valve.spool[k].bypass_closes_at, other.valve.spool[k].bypass_closes_at)) {
-      return "valve.bypass.closes_at";
-    }
     if (!all_close(areas_m2(one.valve.spool[k]), areas_m2(other.valve.spool[k]))) {
       return fmt::format("valve.{}", machines::kDriveNames[k]);
     }
     for (const bool extends : {true, false}) {
+      if (!close(one.valve.spool[k].bypass_closes_at.side(extends),
+                 other.valve.spool[k].bypass_closes_at.side(extends))) {
+        return machines::answer_key(axis, extends) + "bypass_closes_at";
+      }
       const SaidAnswer& a = one.valve.answer[k].side(extends);
       const SaidAnswer& b = other.valve.answer[k].side(extends);
       if (!close(a.spool_to_duty, b.spool_to_duty) || !close(a.dead_time_s, b.dead_time_s) ||

@@ -117,8 +117,11 @@ double bypass_of(const McvMachine& valve, const PumpProfile& pump, unsigned of,
   for (std::size_t k = 0; k < static_cast<std::size_t>(valve.actuator_count); ++k) {
     const McvActuator& actuator = valve.actuator[k];
     if (static_cast<unsigned>(actuator.pump) == of) {
+      const double closed = moment.bypass_closed[k];
+      const double closes_at = actuator.bypass_closes_at.side(moment.opening[k] > 0.0);
       resistance += orifice_resistance(
-          bypass_at(actuator, actuator.bypass_closes_at, std::abs(moment.opening[k])));
+          closed == kByOpening ? bypass_at(actuator, closes_at, std::abs(moment.opening[k]))
+                               : bypass_at(actuator, 1.0, closed));
     }
   }
   return 1.0 / std::sqrt(resistance);

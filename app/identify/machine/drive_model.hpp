@@ -15,10 +15,15 @@ struct ExcavatorProfile;
 
 namespace graben::identify {
 
+inline constexpr double kByOpening = -1.0;
+
 /// One moment of a machine. SI units; extension is positive.
 struct ValveMoment {
   /// Share of the travel outside the dead band, its sign the side.
   std::array<double, kDriveCount> opening{};
+  /// How far the bypass of each section is closed, 0 .. 1, where that is known by more than the
+  /// opening; kByOpening: it is not.
+  std::array<double, kDriveCount> bypass_closed = {kByOpening, kByOpening, kByOpening, kByOpening};
   /// True pressures: the sensors' zeros are taken off.
   std::array<double, kDriveCount> cap_pa{};
   std::array<double, kDriveCount> rod_pa{};

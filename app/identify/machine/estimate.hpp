@@ -48,6 +48,9 @@ struct SideEstimate {
   Estimate out_area_factor;     ///< Of the profile's area on the draining side.
   double in_area_factor = 1.0;  ///< With load sensing, of its feeding side; see coefficient_of().
   Estimate dead_time_s;
+  /// With negative flow: travel at which the bypass is closed, evenly from the curve's start on; 0:
+  /// not known.
+  double bypass_closed_at = 0.0;
   double driven_least = 0.0;  ///< Least and most duty that moved it; both 0: none did.
   double driven_most = 0.0;
   /// Travel at each of kTableOpenings and its deviation, by the curve's covariance; empty: not

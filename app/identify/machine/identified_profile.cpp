@@ -14,6 +14,8 @@ namespace {
 constexpr double kLeastShare = 0.1;
 /// See kLagShare of drive_bank.hpp: two equal lags, and what they are off.
 constexpr double kSettlePerLag = 1.75;
+/// A profile has none below that.
+constexpr double kLeastClosing = 0.01;
 /// Two points of a table are at least so far apart.
 constexpr double kApart = 1e-4;
 /// Pace at which valves that were measured are learnt: what seems to be theirs at work is mostly
@@ -100,6 +102,19 @@ void set_areas(int axis, const DriveEstimate& drive, ExcavatorProfile& profile) 
   }
 }
 
+/// Each side by its own curve: the bypass closes over the travel, and how much of the edges is open
+/// by then is another share on each.
+void set_closing(const MachineEstimate& machine, std::size_t drive, ValveProfile& valve) {
+  const double of_all = std::min(1.0, machine.bypass_closes_at.value);
+  const auto of_side = [&](bool extends) {
+    const SideEstimate& side = machine.drive[drive].side(extends);
+    return has_curve(side) && side.bypass_closed_at > 0.0
+               ? std::clamp(table_of(side.duty).inverse(side.bypass_closed_at), kLeastClosing, 1.0)
+               : of_all;
+  };
+  valve.spool[drive].bypass_closes_at = {of_side(true), of_side(false)};
+}
+
 void set_regulator(const RegulatorEstimate& found, PumpRegulator& regulator) {
   if (found.margin_pa.known) {
     regulator.margin_pa = found.margin_pa.value;
@@ -148,7 +163,7 @@ ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstima
     set_side(drive, false, pump_s, result.valve.answer[k].retract);
     set_areas(axis, drive, result);
     if (machine.bypass_closes_at.known) {
-      result.valve.spool[k].bypass_closes_at = std::min(1.0, machine.bypass_closes_at.value);
+      set_closing(machine, k, result.valve);
     }
     if (axis == kSwing) {
       continue;

@@ -90,6 +90,7 @@ PreparedPoint::PreparedPoint(const DriveModel& model, const SteadyPoint& point,
   drains_ = drained_pa > kDrained_pa && std::abs(point.speed_mps) > kStands_mps;
   if (model.pump_kind() == PumpKind::kNegativeFlow) {
     actuator_ = &model.valve.actuator[axis];
+    closes_at_ = closing_share(model, point.axis, extends());
     fed_ = fed_ && std::abs(point.spool_rise_ps) < kRamp_ps;
     bypass_rest_ =
         orifice_resistance(others_.bypass) - orifice_resistance(actuator_->bypass_closed);
@@ -169,7 +170,7 @@ double PreparedPoint::sqrt_line(const ValveTry& tried, double speed_mps) const {
   if (actuator_ != nullptr) {
     const double start = tried.curve.start();
     line.bypass = bypass_with(std::max(0.0, std::abs(point_.spool) - start) / (1.0 - start),
-                              tried.closes_at_factor * actuator_->bypass_closes_at);
+                              tried.closes_at_factor * closes_at_);
     return falling_sqrt_pressure(line, tried.felt_factor);
   }
   // Many more than it takes: kPressureSteps end it.
@@ -202,11 +203,11 @@ double PreparedPoint::edge_before(double travel) const {
   for (int n = 0; n < kHalvings; ++n) {
     const double closed = 0.5 * (low + high);
     FlowBalance tried = line;
-    tried.bypass = bypass_with(closed * actuator_->bypass_closes_at, actuator_->bypass_closes_at);
+    tried.bypass = bypass_with(closed * closes_at_, closes_at_);
     const double sqrt_pa = falling_sqrt_pressure(tried, 1.0);
     (sqrt_pa * sqrt_pa < fed_pa ? low : high) = closed;
   }
-  const double closes = low * actuator_->bypass_closes_at;
+  const double closes = low * closes_at_;
   return (travel - closes) / (1.0 - closes);
 }
 
@@ -310,6 +311,13 @@ double PreparedPoint::coefficient_share(const ValveTry& tried) const {
   const double left_n = force_n(tried, speed_mps);
   const bool says = fed_ && speed_mps > kStands_mps && left_n > kSays_pa * axis_.inlet_area_m2;
   return says ? speed_mps / (full_mps_ * std::sqrt(left_n)) : -1.0;
+}
+
+double closing_share(const DriveModel& model, int axis, bool extends) {
+  const auto k = static_cast<std::size_t>(axis);
+  const DutyTable& duty = model.drive[k].answer.side(extends).spool_to_duty;
+  const double start = duty.at(0.0);
+  return (duty.at(model.valve.actuator[k].bypass_closes_at.side(extends)) - start) / (1.0 - start);
 }
 
 double coefficient_of(const DriveModel& model, int axis, bool extends, double in_factor,

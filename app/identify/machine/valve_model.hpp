@@ -90,9 +90,13 @@ class PreparedPoint {
   bool returns_ = false;  ///< Oil comes back, and with it the pump is not the limit.
   // With negative flow.
   const McvActuator* actuator_ = nullptr;
+  double closes_at_ = 0.0;    ///< Share of the travel behind the edge, by the profile.
   double bypass_rest_ = 0.0;  ///< Resistance of the line's bypass without its own.
   double others_pa_ = 0.0;    ///< Heaviest load of the line's others; 0: none moves.
 };
+
+/// Share of the travel behind a side's edge at which the profile has its bypass closed.
+[[nodiscard]] double closing_share(const DriveModel& model, int axis, bool extends);
 
 /// Velocity coefficient of a side, of the profile's, whose areas are these factors of the
 /// profile's.

@@ -48,6 +48,12 @@ void ValveProblem::tell_side(const DriveModel& model, std::size_t side, SideEsti
     to.coefficient_factor.deviation *= whole / to.in_area_factor;
     to.coefficient_factor.value = whole;
   }
+  if (falls_) {
+    const double share = std::exp(blocks_.regulator[0]) *
+                         closing_share(model, static_cast<int>(side) / 2, side % 2 == 0);
+    const double start = to.curve().start();
+    to.bypass_closed_at = start + std::min(1.0, share) * (1.0 - start);
+  }
   // Of the travel at each opening, by the curve's three values.
   constexpr double kStep = 1e-4;
   const Eigen::Matrix3d covariance =
@@ -79,8 +85,8 @@ void ValveProblem::tell_regulators(const DriveModel& model, MachineEstimate& mac
       found(std::exp(blocks_.regulator[0]), kRegulatorAt, priors_.log_closes_at);
   machine.closes_at_factor = closes.value;
   machine.bypass_closes_at = closes;
-  machine.bypass_closes_at.value = mean_opening(
-      machine, closes.value * model.valve.actuator[0].bypass_closes_at, model.metering);
+  machine.bypass_closes_at.value =
+      mean_opening(machine, closes.value * closing_share(model, 0, true), model.metering);
   machine.bypass_closes_at.deviation *= machine.bypass_closes_at.value;
   const Estimate felt = found(std::exp(blocks_.regulator[1]), kRegulatorAt + 1, priors_.log_felt);
   for (std::size_t j = 0; j < static_cast<std::size_t>(model.valve.pump_count); ++j) {

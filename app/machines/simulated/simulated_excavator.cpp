@@ -154,7 +154,7 @@ plant::ExcavatorPlantProfile read_plant(TomlReader& reader, const ExcavatorProfi
   const plant::SpoolSide side{valve.deadband_ratio, 0.0, nominal.valve.opening_exponent};
   plant.spool.fill({valve.time_constant_s, valve.damping, side, side, plant::kBypassClosingTravel});
   for (unsigned i = 0; i < kDriveCount; ++i) {
-    plant.spool[i].bypass_closes_at = nominal.valve.spool[i].bypass_closes_at;
+    plant.spool[i].bypass_closes_at = nominal.valve.spool[i].bypass_closes_at.extend;
   }
   plant.bulk_modulus_pa = valve.bulk_modulus_pa;
   plant.engine.lag_s =

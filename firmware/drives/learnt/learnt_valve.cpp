@@ -182,7 +182,7 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
                       std::abs(now.opening - valve.seen.opening) < kLearntSteady;
   const double way = extends ? 1.0 : -1.0;
   const LearntSeen mean = along(valve.seen, way);
-  if (drive.spool.bypass_closes_at > 0.0) {
+  if (drive.spool.bypass_closes_at.is_gradual()) {
     feel_standing(mean, along(now, way), period_s, valve, side);
   } else if (from == LearntFrom::kAnyMotion) {
     feel_still(mean, along(now, way), period_s, valve, side);
@@ -190,7 +190,7 @@ void next_learnt(const DriveRow& drive, const ValidDrive& seen, const LearntAsk&
   if (!steady || !may_be_compared(mean, from)) {
     return;
   }
-  const double steepness = drive.spool.bypass_closes_at > 0.0 ? kLearntSteeper : 1.0;
+  const double steepness = drive.spool.bypass_closes_at.is_gradual() ? kLearntSteeper : 1.0;
   const double ratio = std::clamp(mean.speed_mps / mean.asked.speed_mps, 1.0 / kLearntCountedRatio,
                                   kLearntCountedRatio);
   const double share = power(ratio, 1.0 / (steepness * drive.metering.opening_exponent));

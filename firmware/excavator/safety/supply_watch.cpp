@@ -59,7 +59,7 @@ bool watch_supplies(DriveRows drives, Span<const ValidDrive> seen, Span<const do
       stand = stand && along_mps < kSupplyStandsShare * most_mps;
       // One that goes is fed. One that stands tells nothing under an open bypass, or where its load
       // is not known.
-      if (!seen[i].load_known || drives[i].spool.bypass_closes_at > 0.0) {
+      if (!seen[i].load_known || drives[i].spool.bypass_closes_at.is_gradual()) {
         continue;
       }
       ++asked;

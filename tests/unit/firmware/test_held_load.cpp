@@ -114,7 +114,7 @@ TEST(what_stands_shows_no_missing_flow) {
 TEST(an_edge_is_looked_for_at_once_and_steadily) {
   const ExcavatorBank bank = excavator_bank(machine());
   DriveRow boom = bank.row[0];
-  boom.spool.bypass_closes_at = 0.25;
+  boom.spool.bypass_closes_at = {0.25, 0.25};
   const double first = boom.answer.extend.edge();
   constexpr double kOpening = 0.22;
   LearntValve valve;

@@ -15,7 +15,7 @@ using namespace graben::test::learnt;
 TEST(a_bypass_that_closes_over_the_opening_makes_speeds_steep) {
   const auto learnt_edge = [](double bypass_closes_at) {
     Bench bench;
-    bench.row.spool.bypass_closes_at = bypass_closes_at;
+    bench.row.spool.bypass_closes_at = {bypass_closes_at, bypass_closes_at};
     bench.extend.edge = kEdge + 0.03;
     bench.corrected = false;
     bench.work(6.0, 1.0);
@@ -29,7 +29,7 @@ TEST(a_bypass_that_closes_over_the_opening_makes_speeds_steep) {
 TEST(a_drive_that_stands_under_a_closing_bypass_shows_its_edge) {
   const auto stood_edge = [](double bypass_closes_at, double opening) {
     Bench bench;
-    bench.row.spool.bypass_closes_at = bypass_closes_at;
+    bench.row.spool.bypass_closes_at = {bypass_closes_at, bypass_closes_at};
     double half_way = 0.0;
     double spool = 0.0;
     for (int n = 0; n < 300; ++n) {

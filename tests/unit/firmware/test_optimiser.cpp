@@ -227,12 +227,9 @@ TEST(corners_are_safe) {
   assert_true(refused > 50000 && moving > 2000);
 }
 
-/// At a force of nothing a drive of a line under negative flow control gives way without end.
-TEST(a_yield_that_is_no_number_is_no_solution) {
+/// Kim's machine with pumps under negative flow control.
+McvMachine negative_flow() {
   McvMachine machine = kim();
-  for (McvActuator& actuator : machine.actuator) {
-    actuator.force_offset_n = 0.0;
-  }
   for (McvPump& pump : machine.pump) {
     pump.has_relief = true;
     pump.relief_pa = 3e7;
@@ -241,6 +238,48 @@ TEST(a_yield_that_is_no_number_is_no_solution) {
     pump.regulator.kind = PumpKind::kNegativeFlow;
     pump.regulator.full_swash_pa = 0.8e6;
     pump.regulator.least_swash_pa = 3e6;
+  }
+  return machine;
+}
+
+/// The opening of the way that a drive goes counts, the other does not.
+TEST(each_side_closes_its_bypass_at_its_own_opening) {
+  const auto solved = [](bool extends, const BypassClosing& closes_at) {
+    McvMachine machine = negative_flow();
+    for (McvActuator& actuator : machine.actuator) {
+      actuator.bypass_closes_at = closes_at;
+    }
+    McvInput input;
+    input.velocity_mps = {0.0, extends ? 0.05 : -0.05, 0.0};
+    input.pump_flow_m3ps = {1.5e-3, 1.5e-3};
+    const McvSolution solution = solve_mcv(machine, input, McvPolicy::kGlobal);
+    return solution.point.pump_pressure_pa[0];
+  };
+  const double extended_pa = solved(true, {0.3, 0.3});
+  assert_near(solved(true, {0.3, 0.9}), extended_pa, 0.0);
+  assert_true(std::abs(solved(true, {0.9, 0.3}) - extended_pa) > 1e3);
+  const double retracted_pa = solved(false, {0.3, 0.3});
+  assert_near(solved(false, {0.9, 0.3}), retracted_pa, 0.0);
+  assert_true(std::abs(solved(false, {0.3, 0.9}) - retracted_pa) > 1e3);
+}
+
+/// A bypass that closes over the opening on one side does so on the other.
+TEST(half_a_closing_bypass_is_refused) {
+  for (const BypassClosing& closes_at :
+       {BypassClosing{0.3, 0.0}, BypassClosing{0.0, 0.3}, BypassClosing{0.3, 1.1}}) {
+    McvMachine machine = negative_flow();
+    machine.actuator[0].bypass_closes_at = closes_at;
+    const McvSolution refused = solve_mcv(machine, split_input(0.6e6), McvPolicy::kGlobal);
+    assert_int_equal(refused.status, SolveStatus::kBadInput);
+    assert_int_equal(refused.defect.defect, McvDefect::kBypass);
+  }
+}
+
+/// At a force of nothing a drive of a line under negative flow control gives way without end.
+TEST(a_yield_that_is_no_number_is_no_solution) {
+  McvMachine machine = negative_flow();
+  for (McvActuator& actuator : machine.actuator) {
+    actuator.force_offset_n = 0.0;
   }
   const auto fixed = [&](double cap_pa) {
     return solve_mcv(machine, split_input(cap_pa), McvPolicy::kFixed);

@@ -321,7 +321,7 @@ TEST(what_may_stand_is_not_counted) {
     unknown.seen[which].load_known = false;
     assert_int_equal(unknown.cycles_until_seen(), 0);
     Drives waits;
-    waits.row[which].spool.bypass_closes_at = 0.5;
+    waits.row[which].spool.bypass_closes_at = {0.5, 0.5};
     assert_int_equal(waits.cycles_until_seen(), 0);
   }
 }

@@ -88,6 +88,8 @@ TEST(what_negative_flow_has_of_its_own_is_written) {
   const machines::ExcavatorMachine old = load(old_text);
   JudgedFit fit = fit_of(old.profile);
   fit.machine.bypass_closes_at = {0.21, 0.01, true};
+  // The others know of no travel of their own.
+  fit.machine.drive[kBoom].extend.bypass_closed_at = 0.3 + 0.7 * 0.12 / 1.03;
   for (RegulatorEstimate& regulator : fit.machine.regulator) {
     regulator.full_swash_pa = {0.9e6, 1e4, true};
     regulator.least_swash_pa = {2.9e6, 1e4, true};
@@ -95,14 +97,16 @@ TEST(what_negative_flow_has_of_its_own_is_written) {
   fit.profile = identified(old.profile, fit.machine);
   const std::string text = identified_text(old_text, old, fit, kFrom);
   assert_true(has(text, "like = \"excavator_22t\""));
-  assert_true(has(text, "closes_at = 0.21 "));
+  assert_int_equal(count(text, "bypass_closes_at = 0.21\n"), 5);
+  assert_near(load(text).profile.valve.spool[kBoom].bypass_closes_at.extend, 0.12, 1e-6);
+  assert_near(load(text).profile.valve.spool[kBoom].bypass_closes_at.retract, 0.21, 1e-12);
   assert_int_equal(count(text, "pressure = [900000.0, 2.9e+06], least_swash = 0.15"), 2);
   assert_reads_back(text, "/tmp/graben_like.toml", fit.profile);
   assert_string_equal(first_difference(load(text).profile, fit.profile).c_str(), "");
-  fit.profile.valve.spool[kArm].bypass_closes_at = 0.3;
+  fit.profile.valve.spool[kArm].bypass_closes_at.retract = 0.3;
   graben::test::expect_refusal(
       [&] { assert_reads_back(text, "/tmp/graben_like.toml", fit.profile); },
-      "valve.bypass.closes_at");
+      "valve.answer.arm.retract.bypass_closes_at");
 }
 
 /// Pumps that stand in another's file have no place in this one's.

@@ -123,6 +123,24 @@ TEST(a_machine_under_negative_flow_is_found) {
   assert_true(commissioned.says("the pumps' least swash and response"));
 }
 
+/// A bypass closes over the travel, and each side has opened another share of its edges by then:
+/// with that said of each side, a profile has the machine's speeds; with one opening of all it has
+/// not.
+TEST(each_side_closes_its_bypass_by_its_own_curve) {
+  const auto nominal =
+      machines::load_simulated_excavator(machines::find_profile("excavator_22t_nfc"));
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const MachineEstimate truth = runs::known_machine(
+        nominal.profile, machines::truth_of(machines::hidden_machine(nominal, seed).plant));
+    MachineEstimate of_all = truth;
+    for (DriveEstimate& drive : of_all.drive) {
+      drive.extend.bypass_closed_at = drive.retract.bypass_closed_at = 0.0;
+    }
+    assert_true(runs::speed_errors(nominal.profile, truth, truth).most < 0.12);
+    assert_true(runs::speed_errors(nominal.profile, of_all, truth).most > 0.15);
+  }
+}
+
 /// Its truth as an estimate has no error, and gives back what it is made of.
 TEST(what_is_known_is_without_error) {
   const machines::SimulatedExcavator machine = machines::hidden_machine(test::excavator(), 5);

@@ -114,6 +114,12 @@ LIKE_CASES = [
     ("like one that is like another", LIKE, f'"{NFC}"', [f"{NFC}.toml is like another itself"]),
     ("pressures that hardly differ", "pressure = [0.8e6, 3.0e6]", "pressure = [2.9e6, 3.0e6]",
      ["pump[0].negative_flow.pressure (line ", "at least 200000 Pa more"]),
+    ("a side's bypass where none closes evenly", "closes_at = 0.25 }",
+     "closes_at = 0.0 }\n[valve.answer.boom.extend]\nbypass_closes_at = 0.2",
+     ["valve.answer.boom.extend.bypass_closes_at (line ", "0.2; allowed: only where valve.bypass.closes_at"]),
+    ("a side's bypass that never closes", "closes_at = 0.25 }",
+     "closes_at = 0.25 }\n[valve.answer.boom.retract]\nbypass_closes_at = 1.2",
+     ["valve.answer.boom.retract.bypass_closes_at (line ", "1.2", "0.01 .. 1"]),
 ]
 
 
