@@ -103,16 +103,19 @@ void set_areas(int axis, const DriveEstimate& drive, ExcavatorProfile& profile) 
 }
 
 /// Each side by its own curve: the bypass closes over the travel, and how much of the edges is open
-/// by then is another share on each.
+/// by then is another share on each. Where the curve of a side is known it goes with it, as its
+/// areas do: the fit had this bypass.
 void set_closing(const MachineEstimate& machine, std::size_t drive, ValveProfile& valve) {
-  const double of_all = std::min(1.0, machine.bypass_closes_at.value);
-  const auto of_side = [&](bool extends) {
+  BypassClosing& closes_at = valve.spool[drive].bypass_closes_at;
+  for (const bool extends : {true, false}) {
     const SideEstimate& side = machine.drive[drive].side(extends);
-    return has_curve(side) && side.bypass_closed_at > 0.0
-               ? std::clamp(table_of(side.duty).inverse(side.bypass_closed_at), kLeastClosing, 1.0)
-               : of_all;
-  };
-  valve.spool[drive].bypass_closes_at = {of_side(true), of_side(false)};
+    double& opening = extends ? closes_at.extend : closes_at.retract;
+    if (has_curve(side) && side.bypass_closed_at > 0.0) {
+      opening = std::clamp(table_of(side.duty).inverse(side.bypass_closed_at), kLeastClosing, 1.0);
+    } else if (machine.bypass_closes_at.known) {
+      opening = std::min(1.0, machine.bypass_closes_at.value);
+    }
+  }
 }
 
 void set_regulator(const RegulatorEstimate& found, PumpRegulator& regulator) {
@@ -122,7 +125,8 @@ void set_regulator(const RegulatorEstimate& found, PumpRegulator& regulator) {
   if (found.response_s.known) {
     regulator.response_s = found.response_s.value;
   }
-  if (found.full_swash_pa.known && found.least_swash_pa.known) {
+  // Both, well known or not, are the fit's own: its curves hold with them.
+  if (found.full_swash_pa.value > 0.0 && found.least_swash_pa.value > 0.0) {
     regulator.full_swash_pa = found.full_swash_pa.value;
     regulator.least_swash_pa = found.least_swash_pa.value;
   }
@@ -162,9 +166,7 @@ ExcavatorProfile identified(const ExcavatorProfile& profile, const MachineEstima
     set_side(drive, true, pump_s, result.valve.answer[k].extend);
     set_side(drive, false, pump_s, result.valve.answer[k].retract);
     set_areas(axis, drive, result);
-    if (machine.bypass_closes_at.known) {
-      set_closing(machine, k, result.valve);
-    }
+    set_closing(machine, k, result.valve);
     if (axis == kSwing) {
       continue;
     }

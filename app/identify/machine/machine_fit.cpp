@@ -84,12 +84,13 @@ void tell_missing(const DriveModel& model, MachineEstimate& machine) {
 
 void tell_falling(MachineEstimate& machine) {
   if (!machine.bypass_closes_at.known) {
-    machine.missing.emplace_back("the opening at which the bypass is closed keeps its old value");
+    machine.missing.emplace_back(
+        "the opening at which the bypass is closed is hardly known better than before");
   }
   if (!machine.regulator[0].full_swash_pa.known) {
     machine.missing.emplace_back(
-        "the pumps' two pressures keep their old values: no drive has moved between them for long "
-        "enough");
+        "the pumps' two pressures are hardly known better than before: no drive has moved between "
+        "them for long enough");
   }
   machine.missing.emplace_back(
       "the pumps' least swash and response, and the bypass' orifices, keep their old values: no "
