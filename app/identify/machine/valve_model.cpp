@@ -91,7 +91,7 @@ PreparedPoint::PreparedPoint(const DriveModel& model, const SteadyPoint& point,
   if (model.pump_kind() == PumpKind::kNegativeFlow) {
     actuator_ = &model.valve.actuator[axis];
     closes_at_ = closing_share(model, point.axis, extends());
-    fed_ = fed_ && std::abs(point.spool_rise_ps) < kRamp_ps;
+    fed_ = fed_ && std::abs(point.spool_rise_ps) < kRamp_ps && is_at_rest();
     bypass_rest_ =
         orifice_resistance(others_.bypass) - orifice_resistance(actuator_->bypass_closed);
   }
@@ -101,13 +101,15 @@ PreparedPoint::PreparedPoint(const DriveModel& model, const SteadyPoint& point,
     const double relief_pa = model.pump[static_cast<std::size_t>(pump_)].relief_pa;
     const double line_pa = std::max({0.0, fed_pa, others_pa_}) + margin_pa_;
     const bool holds = line_pa < relief_pa - kCutOff_pa;
-    const bool steady =
-        std::abs(extends() ? point.cap_rise_paps : point.rod_rise_paps) < kRise_paps;
-    bounds_ = holds && steady && !fed_;
-    fed_ = holds && steady && fed_;
+    bounds_ = holds && is_at_rest() && !fed_;
+    fed_ = holds && is_at_rest() && fed_;
     const double gallery = std::abs(point.speed_mps) * axis_.q_out_m3ps / axis_.c_drain;
     returns_ = axis_.regeneration && gallery * gallery > line_pa;
   }
+}
+
+bool PreparedPoint::is_at_rest() const {
+  return std::abs(extends() ? point_.cap_rise_paps : point_.rod_rise_paps) < kRise_paps;
 }
 
 void PreparedPoint::sense_loads(const DriveModel& model, const DriveEstimates& drives) {

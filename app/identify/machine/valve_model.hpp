@@ -57,6 +57,8 @@ class PreparedPoint {
   [[nodiscard]] bool drains() const { return drains_; }
 
  private:
+  /// The fed oil: what goes into its pressure moves nothing.
+  [[nodiscard]] bool is_at_rest() const;
   void sense_loads(const DriveModel& model, const DriveEstimates& drives);
   /// With load sensing: what the margin presses through the feeding edge, and the most that the
   /// pump has left for it.

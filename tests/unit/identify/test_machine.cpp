@@ -9,6 +9,7 @@
 #include "app/identify/machine/log_checks.hpp"
 #include "app/identify/machine/machine_fit.hpp"
 #include "app/identify/machine/swing_figures.hpp"
+#include "app/identify/machine/valve_model.hpp"
 #include "app/machines/simulated/hidden.hpp"
 #include "app/runs/commission_run.hpp"
 #include "app/runs/drive_speeds.hpp"
@@ -146,6 +147,30 @@ TEST(each_side_closes_its_bypass_by_its_own_curve) {
     assert_near(runs::speed_errors(nominal.profile, unsure, truth).most,
                 runs::speed_errors(nominal.profile, truth, truth).most, 0.0);
     assert_true(runs::speed_errors(nominal.profile, of_all, truth).most > 0.15);
+  }
+}
+
+/// A pump whose swash follows its bypass fills the chamber too while its pressure rises: the speed
+/// then says nothing of the edge, also under negative flow.
+TEST(a_rising_pressure_says_no_speed) {
+  for (const char* const name : {"excavator_22t_nfc", "excavator_22t_ls"}) {
+    const auto nominal = machines::load_simulated_excavator(machines::find_profile(name));
+    const DriveModel model(nominal.profile);
+    const MachineEstimate machine = estimate_of(model);
+    const auto says_speed = [&](double cap_rise_paps, double rod_rise_paps) {
+      SteadyPoint at;
+      at.axis = kBucket;
+      at.spool = at.all_spool[kBucket] = 0.4;
+      at.speed_mps = at.all_speed_mps[kBucket] = 0.05;
+      at.cap_pa[kBucket] = 5e6;
+      at.engine_radps = nominal.profile.pump[0].rated_speed_radps;
+      at.cap_rise_paps = cap_rise_paps;
+      at.rod_rise_paps = rod_rise_paps;
+      return PreparedPoint(model, at, machine.drive).says_speed();
+    };
+    assert_true(says_speed(0.0, 20e6));
+    assert_false(says_speed(20e6, 0.0));
+    assert_false(says_speed(-20e6, 0.0));
   }
 }
 
