@@ -100,6 +100,13 @@ ExcavatorProfile marked(ExcavatorProfile profile, bool is_marked,
   return profile;
 }
 
+/// IMUs are given the time to learn their biases before anything is touched by them.
+double begin_s(const ExcavatorProfile& profile) {
+  return profile.imu.known() || profile.imu.has_body()
+             ? static_cast<double>(kImusLearn_us) / kSecondUs
+             : 0.0;
+}
+
 class AssistRun {
  public:
   AssistRun(const machines::SimulatedExcavator& machine, const AssistOptions& options)
@@ -109,6 +116,7 @@ class AssistRun {
         fastest_(machine, way_, options.record == LeverRecord::kThird ? 1.0 / 3.0 : 1.0),
         start_m_(kinematics_.strokes_from_pose(way_.at(0.5 * way_.length_m())).strokes_m),
         noise_(options.seed),
+        begin_s_(begin_s(machine.profile)),
         rig_(machine,
              ExcavatorSetup(marked(machine.profile, options.marked, machine, start_m_),
                             book_of(way_)),
@@ -117,19 +125,22 @@ class AssistRun {
     std::vector<plant::OperatorPhase> phases;
     const auto at = [](double time_s) { return static_cast<TimeUs>(time_s * 1e6); };
     phases.push_back({0, {false, OperatorMode::kManual, Task::kNone, 0.0}});
-    phases.push_back({at(kEnable_s - 0.5), {false, OperatorMode::kAutomatic, Task::kNone, 0.0}});
-    phases.push_back({at(kEnable_s), {true, OperatorMode::kAutomatic, Task::kNone, 0.0}});
-    phases.push_back({at(kEnable_s + 0.1), {true, OperatorMode::kAutomatic, Task::kAssist, 1.0}});
+    phases.push_back(
+        {at(begin_s_ + kEnable_s - 0.5), {false, OperatorMode::kAutomatic, Task::kNone, 0.0}});
+    phases.push_back(
+        {at(begin_s_ + kEnable_s), {true, OperatorMode::kAutomatic, Task::kNone, 0.0}});
+    phases.push_back(
+        {at(begin_s_ + kEnable_s + 0.1), {true, OperatorMode::kAutomatic, Task::kAssist, 1.0}});
     rig_.driver.set_schedule(phases);
   }
 
   AssistResult run() {
     AssistResult result;
-    const auto most = static_cast<int>(kMost_s / kPeriod_s);
+    const auto most = static_cast<int>((begin_s_ + kMost_s) / kPeriod_s);
     int n = 0;
     for (; n < most && phase_ != Phase::kDone; ++n) {
       now_s_ = n * kPeriod_s;
-      if (options_.marked && n == static_cast<int>(kTouch_s / kPeriod_s)) {
+      if (options_.marked && n == static_cast<int>((begin_s_ + kTouch_s) / kPeriod_s)) {
         rig_.driver.touch_mark();
       }
       operate();
@@ -185,7 +196,7 @@ class AssistRun {
       since_s_ = now_s_;
       from_m_ = at_m;
     };
-    if (phase_ == Phase::kWait && active && now_s_ > kEnable_s + 1.0) {
+    if (phase_ == Phase::kWait && active && now_s_ > begin_s_ + kEnable_s + 1.0) {
       next(Phase::kOut);
     } else if (phase_ == Phase::kOut && at_m > way_.length_m() - 0.1) {
       next(Phase::kTurn);
@@ -299,6 +310,7 @@ class AssistRun {
   FastestByFlow fastest_;
   Eigen::Vector3d start_m_;
   HandNoise noise_;
+  double begin_s_;
   ExcavatorRig rig_;
   plant::OperatorHands hands_;
   AssistSummary summary_;

@@ -140,7 +140,16 @@ void correct_angle(const AngleNoise& noise, const Eigen::Vector2d& acceleration_
                                noise_mps2 / (noise_mps2 + wrong_mps2 + kAngleHitWeight * hit_mps2));
   state.off_rad +=
       calm * std::min(1.0, state.last.period_s / kAngleOffTime_s) * (error_rad - state.off_rad);
-  take(error_rad, 1.0, 0.0, (noise_mps2 + wrong_mps2 + hit_mps2) / square(least), state);
+  // What the body stands on is shaken too, which nobody knows. Were each reading weighed by its own
+  // hit, one half of every swing would count more than the other: they weigh alike, and only what
+  // is far beyond them is a blow.
+  const double force2 = square(least);
+  const double sway = std::max(noise_mps2 / force2, state.sway);
+  const double off = square(error_rad - state.off_rad) + hit_mps2 / force2;
+  state.sway = sway + std::min(1.0, state.last.period_s / kAngleSwayTime_s) *
+                          (std::min(off, kAngleSwayMost * sway) - sway);
+  const double blow = std::max(0.0, hit_mps2 / force2 - kAngleBlow * sway);
+  take(error_rad, 1.0, 0.0, wrong_mps2 / force2 + blow + sway, state);
 }
 
 }  // namespace graben

@@ -51,6 +51,7 @@ struct LinkAngle {
   AngleMotion then;           ///< At the reading before `last`.
   /// Low-passed: the force's direction against the angle; what hits the link counts little.
   double off_rad = 0.0;
+  double sway = 0.0;  ///< Mean square of what a reading is off by, of either kind, rad^2.
   /// Low-passed: the force across the lever that neither gyro nor gravity explains.
   double steady_mps2 = 0.0;
   double steady_s = 0.0;  ///< Since when, no longer than it matters.

@@ -42,6 +42,15 @@ inline constexpr double kRestMostDeviations = 4.0;
 /// Time constant of the low-pass before gyro and gravity count as contradicting. [s; chosen: long
 /// enough to average vibration out; tried 2 s, with 0.1 rad]
 inline constexpr double kAngleOffTime_s = 1.0;
+/// Time over which the sway of a force's direction is looked at. [s; chosen: that of the tracks at
+/// 2 Hz hardly shows in its mean; 1 s tried, what is longer comes late]
+inline constexpr double kAngleSwayTime_s = 0.3;
+/// One reading's square counts as no more than this many of its mean. [-; derived: a sine's peak;
+/// with a third of all readings hit it stays]
+inline constexpr double kAngleSwayMost = 2.0;
+/// Square of a hit over that mean from which it is a blow and tells less. [-; chosen: two
+/// deviations; not tried]
+inline constexpr double kAngleBlow = 4.0;
 /// Mean angle between gyro and gravity from which they contradict each other. [rad; chosen: 3 deg
 /// is no bias; tried 0.1]
 inline constexpr double kAngleContradicts_rad = 0.05;
