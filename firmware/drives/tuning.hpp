@@ -46,9 +46,9 @@ inline constexpr double kBlockedPushes_s = 0.1;
 /// Longest time to let off, also where the pressure does not fall. [s; chosen: then the drive rests
 /// all the same; not tried]
 inline constexpr double kBlockedLetsOff_s = 1.0;
-/// Time for which a drive rests after it has let off, before it pushes again. [s; measured: `campaign
-/// dig --obstacle --draws 20`, rocks that hold for 2 to 4.2 s: error after them 29 / 26 mm p95, 22 t
-/// and 12 t; 1.5: 67 / 60, as a rock that lets go in the second push throws the tool]
+/// Time for which a drive rests after it has let off, before it pushes again. [s; measured:
+/// `campaign dig --obstacle --draws 20`, rocks that hold for 2 to 4.2 s: error after them 29 / 26
+/// mm p95, 22 t and 12 t; 1.5: 67 / 60, as a rock that lets go in the second push throws the tool]
 inline constexpr double kBlockedRests_s = 3.0;
 /// Speed backwards with which a blocked drive lets off. [m/s; chosen: slow, so that only pressure
 /// is let off; not tried]
@@ -59,8 +59,9 @@ inline constexpr double kBlockedWary_s = 6.0;
 /// Way beyond the place of blocking after which the drive is past it. [m; chosen: until then the
 /// load's giving way is to throw little; not tried]
 inline constexpr double kBlockedPast_m = 0.02;
-/// Way towards the load after which it has given way. [m; measured: letting off alone does not end
-/// it; 0.003 ends a rest by what the others correct: one 22 t of 20 pushes anew too soon]
+/// Way towards the load after which it has given way. [m; measured: `campaign dig --obstacle
+/// --draws 20`: letting off alone does not end it; 0.003 ends a rest by what the others correct:
+/// one 22 t pushes anew too soon]
 inline constexpr double kBlockedGaveWay_m = 0.005;
 
 // Commissioning guard (commission_guard.cpp): duties tried on valves that nobody knows
