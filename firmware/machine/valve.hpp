@@ -43,7 +43,7 @@ struct SpoolProfile {
   double retract_out_m2 = 0.0;
   double bypass_open = 0.0;    ///< c_v,by at x = 0 of (20), m^3/(s sqrt(Pa)).
   double bypass_closed = 0.0;  ///< c_v,by at x != 0 of (20).
-  BypassClosing bypass_closes_at;
+  BypassClosing bypass_closes_at{};
   RegenerationSide regeneration = RegenerationSide::kNone;
   double c_drain = 0.0;         ///< c_d of (15).
   double c_check = 0.0;         ///< c_r of (16).
