@@ -8,6 +8,8 @@
 
 #include "firmware/estimation/link_angle.hpp"
 
+namespace graben::test::of_body {
+
 inline constexpr double kPeriod_s = 0.01;
 inline constexpr double kGravity = 9.80665;
 inline constexpr AngleNoise kNoise{1.75e-3, 3.5e-3, 0.3};
@@ -76,3 +78,5 @@ inline double worst_rad(Body body, double from_s, double to_s, bool at_rest, boo
   }
   return worst;
 }
+
+}  // namespace graben::test::of_body

@@ -10,6 +10,8 @@
 #include "tests/unit/cmocka_cpp.hpp"
 #include "tests/unit/firmware/moving_body.hpp"
 
+using namespace test::of_body;
+
 TEST(stands) {
   for (const double angle : {-3.0, -1.2, 0.0, 0.8, 2.9}) {
     Body body;
