@@ -135,6 +135,18 @@ bool any_eases(Span<const BlockedState> state) {
   return any;
 }
 
+double rested_s(Span<const BlockedState> state) {
+  double least_s = kBlockedRests_s;
+  bool any = false;
+  for (int i = 0; i < state.count(); ++i) {
+    if (state[i].side != 0 && state[i].easing != Easing::kPushes) {
+      any = true;
+      least_s = std::min(least_s, state[i].easing == Easing::kRests ? state[i].for_s : 0.0);
+    }
+  }
+  return any ? least_s : 0.0;
+}
+
 bool any_wary(Span<const BlockedState> state) {
   bool any = false;
   for (int i = 0; i < state.count(); ++i) {

@@ -57,6 +57,10 @@ void next_blocked(DriveRows drives, Span<const ValidDrive> seen, const BlockedAs
 /// Some drive lets its pressure off or rests: all others are to go no further.
 [[nodiscard]] bool any_eases(Span<const BlockedState> state);
 
+/// Time for which all drives that ease have rested; 0 while one lets its pressure off, or none
+/// eases.
+[[nodiscard]] double rested_s(Span<const BlockedState> state);
+
 /// Some drive had to let its pressure off within the last 6 s and has not come 20 mm past the
 /// place: slower, so that the load's giving way throws little.
 [[nodiscard]] bool any_wary(Span<const BlockedState> state);

@@ -17,7 +17,10 @@ void ease_blocked(const ExcavatorModel& machine, Span<const BlockedState> blocke
   motion.eases = any_eases(blocked);
   if (motion.eases) {
     // The oil of all drives gives way with the one that lets off, and would take the teeth along.
-    motion.corrected_mps = kEasedCorrects * (motion.corrected_mps - motion.wanted_mps);
+    // Once it is still nothing does; what would be corrected then moves the teeth across the path.
+    const double still = (rested_s(blocked) - kEasedStillFrom_s) / kEasedStills_s;
+    motion.corrected_mps = kEasedCorrects * (1.0 - std::clamp(still, 0.0, 1.0)) *
+                           (motion.corrected_mps - motion.wanted_mps);
   }
   for (int i = 0; i < machine.drives.count(); ++i) {
     motion.corrected_mps[i] = eased_mps(blocked[i], motion.wanted_mps[i], motion.corrected_mps[i]);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/drives/blocked.hpp"
 
+#include <array>
+
 #include "tests/unit/cmocka_cpp.hpp"
 
 constexpr double kPeriod_s = 0.01;
@@ -255,4 +257,21 @@ TEST(giving_way_is_known_at_once) {
       assert_true(drive.state.less > 0.3);
     }
   }
+}
+
+/// The least rest of all that ease; one that only pushes does not count.
+TEST(how_long_all_have_rested) {
+  std::array<BlockedState, 3> state{};
+  const Span<const BlockedState> all(state.data(), 3);
+  assert_near(rested_s(all), 0.0, 0.0);
+  state[0] = blocked_drive(kPush_pa).state;
+  assert_near(rested_s(all), 0.0, 0.0);
+  for (const unsigned k : {1U, 2U}) {
+    state[k].side = 1;
+    state[k].easing = Easing::kRests;
+    state[k].for_s = 0.5 * k;
+  }
+  assert_near(rested_s(all), 0.5, 0.0);
+  state[1].easing = Easing::kLetsOff;
+  assert_near(rested_s(all), 0.0, 0.0);
 }
