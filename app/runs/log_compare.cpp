@@ -66,8 +66,8 @@ ErrorFigures error_figures(const RunLog& run) {
     } else if (!std::isfinite(near_since_s)) {
       near_since_s = error.time_s[i];
     }
-    // As PathProgress counts a run: an approach crosses the path, and its swing falls, before it
-    // has arrived.
+    // As PathProgress counts a run at full speed: an approach crosses the path, and its swing
+    // falls, before it has arrived.
     if (count == 0 && !(error.time_s[i] - near_since_s >= kArrivedFor_s)) {
       continue;
     }

@@ -86,8 +86,8 @@ struct ComparedFigure {
 
 /// Both runs in figures: times, errors with their moments, lambda, each limit's share. Of error and
 /// lambda counts what comes after the error was first below kArrived_m for kArrivedFor_s, as in a
-/// run's own figures (PathProgress): a way to the path is no error, and its start from rest no
-/// limit.
+/// run's own figures at full speed (PathProgress): a way to the path is no error, and its start
+/// from rest no limit.
 [[nodiscard]] std::vector<ComparedFigure> compared_figures(const RunLog& first,
                                                            const RunLog& second);
 inline constexpr double kArrived_m = 0.02;

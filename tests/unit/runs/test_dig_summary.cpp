@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "app/runs/autodig_run.hpp"
 #include "app/runs/dig_run.hpp"
+#include "app/runs/path_progress.hpp"
 #include "firmware/numeric/constants.hpp"
 #include "tests/unit/cmocka_cpp.hpp"
 
@@ -197,4 +199,31 @@ TEST(what_is_left_heads_an_area) {
   assert_string_equal(figures.values[5].info->name, "over_cut_max_m");
   assert_string_equal(figures.values[6].info->name, "max_error_true_m");
   assert_int_equal(figures.values.size(), autodig_figures().size());
+}
+
+/// Seconds until the path counts as reached, along its top at this speed, and the metres counted
+/// within the next two.
+std::pair<double, double> reached_s(double speed_mps) {
+  const RoundedRectangle path(DigPath{3.5, 6.5, -2.2, 0.2, 0.4});
+  PathProgress progress(path, 1.0);
+  double at_s = -1.0;
+  for (int n = 0; n < 20000; ++n) {
+    const double time_s = 0.01 * n;
+    progress.update({4.0 + speed_mps * time_s, 0.2}, true, static_cast<TimeUs>(n) * 10000);
+    at_s = at_s < 0.0 && progress.on_path() ? time_s : at_s;
+    if (at_s >= 0.0 && time_s >= at_s + 2.0) {
+      return {at_s, progress.share() * path.length_m()};
+    }
+  }
+  return {at_s, 0.0};
+}
+
+/// After half a second at full speed; a slow approach's last millimetres are no error of its path.
+TEST(a_path_is_reached_after_a_time_and_a_way) {
+  const auto [fast_s, fast_m] = reached_s(0.6);
+  assert_near(fast_s, 0.5, 0.011);
+  assert_near(fast_m, 1.2, 0.01);
+  const auto [slow_s, slow_m] = reached_s(0.03);
+  assert_near(slow_s, 0.2 / 0.03, 0.02);
+  assert_near(slow_m, 0.06, 0.001);
 }
