@@ -50,6 +50,13 @@ Eigen::Vector2d given_way_mps(const OilModes& modes, const OilSeen& seen, const 
   return seen.yield_mpsn.cwiseProduct(state.force_n - seen.opened_for_n).cwiseQuotient(in_cycle);
 }
 
+/// Strokes come in steps of 0.1 mm. Taken for motion, a step would shake the load and with it the
+/// duties: what is within it counts the less, the smaller it is.
+Eigen::Vector2d beyond_resolution_m(const Eigen::Vector2d& missed_m) {
+  const Eigen::Array2d size_m = missed_m.array().abs();
+  return (missed_m.array() * size_m / (size_m + kOilStrokeStep_m)).matrix();
+}
+
 /// What a drive lacks of its flow, at a pump's or a spool's end, it lacks less where the path asks
 /// for less. The observer alone takes half a second to see it, and the drive overshoots meanwhile.
 void forget_with_flow(const Eigen::Vector2d& before_mps, OilState& state) {
@@ -103,7 +110,6 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
   Eigen::Vector2d oil = compression(state.force_n);
   Eigen::Vector2d load = compression(state.load_n);
   Eigen::Vector2d error = modes.inverse * state.flow_error_mps;
-  const Eigen::Vector2d seen_travel = modes.inverse * seen.stroke_m;
   const Eigen::Vector2d seen_oil = compression(seen.force_n);
   for (int j = 0; j < 2; ++j) {
     const ModeTurn turn = mode_turn(modes.omega_radps[j], time_s);
@@ -114,8 +120,11 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
         time_s * total + turn.travel_of_speed_s * beyond + turn.travel_of_balance * balance;
     speed[j] = total + turn.cosine * beyond + turn.speed_of_balance_ps * balance;
     oil[j] = turn.cosine * balance - turn.travel_of_speed_s * beyond - load[j];
-    const Eigen::Vector2d missed(seen_travel[j] - travel[j],
-                                 seen.force_known ? seen_oil[j] - oil[j] : 0.0);
+  }
+  const Eigen::Vector2d missed_travel =
+      modes.inverse * beyond_resolution_m(seen.stroke_m - modes.shape * travel);
+  for (int j = 0; j < 2; ++j) {
+    const Eigen::Vector2d missed(missed_travel[j], seen.force_known ? seen_oil[j] - oil[j] : 0.0);
     const Eigen::Matrix<double, ModeGains::kStates, 1> change =
         gains.at(modes.omega_radps[j]).observer * missed;
     travel[j] += change[0];
