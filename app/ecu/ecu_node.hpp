@@ -111,6 +111,19 @@ class EcuNode {
       return controller_.begin(learnt);
     }
   }
+  /// Of a kind with tasks: the machine is not where their file has it, and to begin so.
+  [[nodiscard]] bool site_is_left() const {
+    if constexpr (Kind::kHasTasks) {
+      return controller_.site_is_left();
+    } else {
+      return false;
+    }
+  }
+  void begin_left_site() {
+    if constexpr (Kind::kHasTasks) {
+      controller_.begin_left_site();
+    }
+  }
 
   /// From the next cycle on the controller is told to end.
   void request_stop() { stop_requested_ = true; }

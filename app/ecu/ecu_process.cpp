@@ -22,8 +22,9 @@
 #include "app/ecu/ground/ground_keeper.hpp"
 #include "app/ecu/kinds.hpp"
 #include "app/ecu/opened_store.hpp"
-#include "app/ecu/store/frozen_fault.hpp"
 #include "app/ecu/store/process_store.hpp"
+#include "app/ecu/store/site_mark.hpp"
+#include "app/ecu/workshop.hpp"
 #include "app/machines/any_machine.hpp"
 #include "app/machines/task_file.hpp"
 #include "hal/j1939/ids.hpp"
@@ -164,50 +165,6 @@ std::uint32_t small(std::uint64_t count) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, UINT32_MAX));
 }
 
-/// What others on the bus ask for beside control, and what is stored for it.
-class Workshop {
- public:
-  Workshop(AddressPort& address, DiagnosticPort& port, ProcessStore* store)
-      : address_(address),
-        port_(port),
-        rings_(store == nullptr ? nullptr : &store->rings()),
-        recorder_(rings_) {
-    if (store != nullptr) {
-      recorder_.begin(store->found());
-    }
-  }
-  void begin(TimeUs now_us) {
-    address_.begin(now_us);
-    port_.begin(now_us);
-  }
-  template <class Ecu>
-  void cycle_done(const Ecu& ecu, TimeUs now_us) {
-    const MachineStatus& status = ecu.outputs().status;
-    recorder_.look(sample_of(ecu.inputs(), ecu.outputs(), now_us), status.faults);
-    const FaultSet cleared = port_.finish({status.faults, status.mode, recorder_.stored(),
-                                           frozen_of(recorder_.last()), recorder_.can_forget()});
-    recorder_.forget(cleared, now_us);
-    keep_learnt(ecu, now_us);
-    address_.finish();
-  }
-
- private:
-  /// A copy each second, for the store; one that it has no room for is followed by another.
-  template <class Ecu>
-  void keep_learnt(const Ecu& ecu, TimeUs now_us) {
-    if (rings_ != nullptr && now_us - learnt_us_ >= kSecondUs && rings_->learnt.has_room()) {
-      learnt_us_ = now_us;
-      static_cast<void>(rings_->learnt.put(record_of(ecu.learnt())));
-    }
-  }
-
-  AddressPort& address_;
-  DiagnosticPort& port_;
-  FaultRings* rings_;
-  FaultRecorder recorder_;
-  TimeUs learnt_us_ = 0;
-};
-
 template <class Ecu, class Feed>
 void cycle_until_stopped(Ecu& ecu, CyclicClock& clock, Watchdog& watchdog, UsageMark& mark,
                          EmergencyNote& note, AddressNote& address, Workshop& workshop, Feed& edge,
@@ -264,6 +221,16 @@ std::vector<std::uint32_t> heard_ids(const typename Kind::Setup& setup, const Bu
   return ids;
 }
 
+/// Where the tasks have the machine; 0: nowhere.
+template <class Kind>
+std::uint32_t site_of([[maybe_unused]] const typename Kind::Setup& setup) {
+  if constexpr (Kind::kHasTasks) {
+    return site_mark(setup.book);
+  } else {
+    return 0;
+  }
+}
+
 /// From the interfaces to the statistics, with the controller of a machine kind.
 template <class Kind>
 int run_controller(const typename Kind::Setup& setup, const BusTable& table,
@@ -291,6 +258,14 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
       store != nullptr && learnt_from(store->found().learnt, learnt) && !ecu.begin(learnt)) {
     std::fputs("graben-ecu: store: what was learnt is beyond what can be: begins anew\n", stderr);
   }
+  const std::uint32_t site = site_of<Kind>(setup);
+  if (site != 0 && store != nullptr && store->found().left_site == site) {
+    ecu.begin_left_site();
+    std::fputs(
+        "graben-ecu: store: the machine has left the place that the tasks have: touch the site's "
+        "points again, or give a file of where it stands\n",
+        stderr);
+  }
   const EndSignals signals(last, buses.ports);
   demand(signals.error(), "");
   claim_address(address);
@@ -310,7 +285,7 @@ int run_controller(const typename Kind::Setup& setup, const BusTable& table,
   EmergencyNote note(manager, status);
   AddressNote address_note(manager, claim);
 
-  Workshop workshop(address, port, store.get());
+  Workshop workshop(address, port, store.get(), site);
   ground::EdgeFeed edge(ground::finder_of(setup), edges_of(setup, store.get()));
   cycle_until_stopped(ecu, clock, watchdog, mark, note, address_note, workshop, edge,
                       options.real_time);

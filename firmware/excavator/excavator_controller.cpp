@@ -62,6 +62,17 @@ bool ExcavatorController::begin(const LearntDrives& learnt) {
   return true;
 }
 
+bool ExcavatorController::site_is_left() const {
+  return is_left(sources_.book.site, memory_->last.site);
+}
+
+void ExcavatorController::begin_left_site() {
+  if (memory_.intact()) {
+    memory_->last.site.begins_left = true;
+    memory_.seal();
+  }
+}
+
 Motion ExcavatorController::next_motion(const ExcavatorValid& valid, const Cycle& cycle) {
   Memory& is = *memory_;
   const MotionUnderWay under_way = motion_under_way(machine_, sources_.book, valid, is.motion);

@@ -44,6 +44,12 @@ class ExcavatorController {
   /// changed, if that is not sound.
   [[nodiscard]] bool begin(const LearntDrives& learnt);
 
+  /// The machine is not, or not surely, where its tasks' file has it: see is_left().
+  [[nodiscard]] bool site_is_left() const;
+  /// An earlier run with the same file has left it so: unknown until it is touched. To be called
+  /// before the first step.
+  void begin_left_site();
+
  private:
   /// Lets tests flip a bit of what is stored.
   friend struct ControllerMemoryAccess;

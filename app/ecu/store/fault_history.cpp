@@ -11,7 +11,8 @@ namespace {
 constexpr std::size_t kFixedBytes = 20;
 constexpr std::size_t kEntryBytes = 26;
 constexpr std::size_t kLearntBytes = 2 + 4 * LearntRecord::kMost;
-static_assert(kFixedBytes + (FaultSet::kNumbers - 1) * kEntryBytes + kLearntBytes <=
+constexpr std::size_t kSiteBytes = 4;
+static_assert(kFixedBytes + (FaultSet::kNumbers - 1) * kEntryBytes + kLearntBytes + kSiteBytes <=
                   kMostPayloadBytes,
               "or some fault has no room");
 }  // namespace
@@ -43,6 +44,7 @@ void FaultHistory::follow(const FaultHistory& found, const FaultSet& cleared) {
   tokens = found.tokens;
   lost = found.lost;
   learnt = learnt.count > 0 ? learnt : found.learnt;
+  left_site = left_site != 0 ? left_site : found.left_site;
   for (int number = 1; number < kFaultCount; ++number) {
     const auto fault = static_cast<Fault>(number);
     FaultEntry& own = of(fault);
@@ -83,6 +85,7 @@ std::size_t write_history(const FaultHistory& history, std::uint8_t* payload) {
     to.u32(one.last_cycle);
   }
   write_learnt(history.learnt, to);
+  to.u32(history.left_site);
   return to.count();
 }
 
@@ -109,8 +112,9 @@ bool read_history(const std::uint8_t* payload, std::size_t length, FaultHistory&
       history.entry[number] = one;
     }
   }
-  // An earlier version ends here.
+  // An earlier version ends here, or after that.
   history.learnt = from.left() > 0 ? read_learnt(from) : LearntRecord{};
+  history.left_site = from.left() > 0 ? from.u32() : 0;
   return from.good();
 }
 

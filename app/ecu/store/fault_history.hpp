@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What is remembered of each fault, of the operation that it is counted in, and what the
-/// controller has learnt meanwhile: one record, so that none of it costs a write of its own.
+/// What is remembered of each fault, of the operation that it is counted in, what the controller
+/// has learnt meanwhile and which place it has left: one record, so that none of it costs a write
+/// of its own.
 
 #include <array>
 #include <cstddef>
@@ -36,7 +37,9 @@ struct FaultHistory {
   std::uint16_t tokens = 0;        ///< Of the wear budget.
   std::uint32_t lost = 0;          ///< Events and frames for which there was no room.
   std::array<FaultEntry, kFaultCount> entry{};
-  LearntRecord learnt;  ///< Last, so that a reader that does not know it reads the rest.
+  // Last, so that a reader that does not know them reads the rest.
+  LearntRecord learnt;
+  std::uint32_t left_site = 0;  ///< site_mark() of a place that the machine has left; 0: of none.
 
   [[nodiscard]] FaultEntry& of(Fault fault) { return entry[static_cast<std::size_t>(fault)]; }
   [[nodiscard]] const FaultEntry& of(Fault fault) const {

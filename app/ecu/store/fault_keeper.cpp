@@ -120,6 +120,13 @@ void FaultKeeper::drain(TimeUs now_us, std::uint32_t unix_s) {
     }
     rings_.learnt.take();
   }
+  while (const std::uint32_t* const left = rings_.left_site.front()) {
+    if (history_.left_site != *left) {
+      changed(now_us);
+    }
+    history_.left_site = own_.left_site = *left;
+    rings_.left_site.take();
+  }
   while (const FreezeFrame* const frame = rings_.frames.front()) {
     if (!waiting_.take(*frame, now_us)) {
       ++frames_lost_;

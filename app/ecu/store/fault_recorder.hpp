@@ -34,6 +34,8 @@ struct FaultRings {
   SpscRing<Occurrences, 4> found;
   /// To the store's thread, what has been learnt so far.
   SpscRing<LearntRecord, 2> learnt;
+  /// To it, site_mark() of the place that the machine has left.
+  SpscRing<std::uint32_t, 2> left_site;
 };
 
 /// The cycle in which a fault came.

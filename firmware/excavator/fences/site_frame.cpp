@@ -50,6 +50,14 @@ MarkTouch check_surface(const Fence& design, const Eigen::Vector3d& at_m, SiteSt
 
 }  // namespace
 
+void begin_site(const SitePoints& points, double swing_rad, SiteState& state) {
+  if (state.known == SiteKnown::kNone) {
+    const bool is_unknown = points.by_touch || state.begins_left;
+    state.known = is_unknown ? SiteKnown::kUnknown : SiteKnown::kKnown;
+    state.swing_rad = swing_rad;
+  }
+}
+
 MarkTouch next_site(const SitePoints& points, const FenceSet& fences, TouchKind kind,
                     const TeethPlace& teeth, SiteState& state) {
   if (kind == TouchKind::kMoved) {

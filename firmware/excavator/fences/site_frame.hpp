@@ -35,7 +35,8 @@ struct TeethPlace {
 /// State from cycle to cycle.
 struct SiteState {
   SiteKnown known = SiteKnown::kNone;
-  bool placed = false;  ///< By touches; else the machine stands where its task file has it.
+  bool begins_left = false;  ///< An earlier run has left the frame of the file, see is_left().
+  bool placed = false;       ///< By touches; else the machine stands where its task file has it.
   FrameShift shift;
   TeethPlace benchmark;     ///< The teeth on it.
   double turned_rad = 0.0;  ///< The tracks, of late, by the platform's gyro and the swing's sensor.
@@ -49,6 +50,15 @@ struct SiteState {
 /// The last of a program's fences is its design.
 [[nodiscard]] inline bool has_design(const FenceSet& fences) {
   return fences.count > 0 && fences.fence[static_cast<unsigned>(fences.count - 1)].is_design();
+}
+
+/// Nobody has asked yet: known as the file has it, unless an earlier run has left that.
+void begin_site(const SitePoints& points, double swing_rad, SiteState& state);
+
+/// The machine does not stand where the file has it, or nobody knows: a later run of the same file
+/// must not believe that either. Of one that has to be touched anyway there is nothing to keep.
+[[nodiscard]] inline bool is_left(const SitePoints& points, const SiteState& state) {
+  return !points.by_touch && (state.is_lost() || state.placed || state.begins_left);
 }
 
 /// One touch on. What it makes of the frame: the benchmark begins anew; the second point ends that,

@@ -51,10 +51,7 @@ void check_touches(const ExcavatorModel& machine, const TaskBook& book, const Ex
   seen.known = is_place_known(valid.faults) && pose.status == ReachStatus::kOk;
   const double swing_rad =
       profile.has_swing() ? valid.drive[kSwing].stroke_m / profile.swing.lever_m : 0.0;
-  if (site.known == SiteKnown::kNone) {
-    site.known = book.site.by_touch ? SiteKnown::kUnknown : SiteKnown::kKnown;
-    site.swing_rad = swing_rad;
-  }
+  begin_site(book.site, swing_rad, site);
   if (profile.imu.has_body() && profile.has_swing()) {
     watch_tracks(turning_radps, swing_rad, elapsed_s, site);
   }

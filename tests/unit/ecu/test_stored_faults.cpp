@@ -153,12 +153,16 @@ TEST(a_record_without_it_or_with_more_has_nothing_learnt) {
   FaultHistory found;
   assert_true(read_history(payload.data(), length, found));
   assert_int_equal(found.learnt.count, LearntRecord::kMost);
-  const std::size_t at = length - 2 - 4 * LearntRecord::kMost;
+  constexpr std::size_t kSiteBytes = 4;
+  const std::size_t at = length - kSiteBytes - 2 - 4 * LearntRecord::kMost;
   // One of an earlier version ends before it; one that is cut is none.
   assert_true(read_history(payload.data(), at, found));
   assert_int_equal(found.of(kOne).occurrences, 3);
   assert_int_equal(found.learnt.count, 0);
-  for (const std::size_t left : {at + 1, at + 2, length - 1}) {
+  assert_true(read_history(payload.data(), length - kSiteBytes, found));
+  assert_int_equal(found.learnt.count, LearntRecord::kMost);
+  assert_int_equal(found.left_site, 0);
+  for (const std::size_t left : {at + 1, at + 2, length - kSiteBytes - 1, length - 1}) {
     assert_false(read_history(payload.data(), left, found));
   }
   payload[at] = LearntRecord::kMost + 1;

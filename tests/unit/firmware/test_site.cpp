@@ -142,6 +142,29 @@ TEST(a_frame_of_the_file_is_lost_with_the_tracks) {
   assert_false(machine.warned());
 }
 
+/// What an earlier run has left is not believed again; touched, it is known, and left all the same.
+TEST(a_restart_does_not_believe_a_file_that_was_left) {
+  SiteMachine first(false);
+  first.run(2);
+  assert_false(first.controller.site_is_left());
+  first.touch(TouchKind::kMoved);
+  assert_true(first.controller.site_is_left());
+  SiteMachine again(false);
+  again.controller.begin_left_site();
+  again.run(2);
+  assert_int_equal(again.site(), SiteKnown::kUnknown);
+  assert_true(again.warned() && again.controller.site_is_left());
+  again.touch_both();
+  again.run(1);
+  assert_int_equal(again.site(), SiteKnown::kKnown);
+  assert_false(again.warned());
+  assert_true(again.controller.site_is_left());
+  // What has to be touched anyway leaves nothing.
+  SiteMachine by_touch;
+  by_touch.run(2);
+  assert_false(by_touch.controller.site_is_left());
+}
+
 /// A program is planned where its file has the design: elsewhere it does not arm.
 TEST(a_program_with_a_design_does_not_run_elsewhere) {
   SiteMachine machine(false);
