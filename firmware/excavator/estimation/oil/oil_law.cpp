@@ -123,7 +123,7 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
   }
   const Eigen::Vector2d missed_travel =
       modes.inverse * beyond_resolution_m(seen.stroke_m - modes.shape * travel);
-  for (int j = 0; j < 2; ++j) {
+  const auto see = [&](int j) {
     const Eigen::Vector2d missed(missed_travel[j], seen.force_known ? seen_oil[j] - oil[j] : 0.0);
     const Eigen::Matrix<double, ModeGains::kStates, 1> change =
         gains.at(modes.omega_radps[j]).observer * missed;
@@ -132,7 +132,9 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
     oil[j] += change[2];
     load[j] += change[3];
     error[j] += change[4];
-  }
+  };
+  see(0);
+  see(1);
   state.travel_m = modes.shape * travel;
   state.speed_mps = modes.shape * speed;
   state.force_n = modes.stiffness_npm.cwiseProduct(modes.shape * oil);
