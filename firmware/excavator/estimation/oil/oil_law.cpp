@@ -2,6 +2,7 @@
 #include "firmware/excavator/estimation/oil/oil_law.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "firmware/core/time.hpp"
 #include "firmware/excavator/estimation/oil/oil_cycle.hpp"
@@ -52,9 +53,9 @@ Eigen::Vector2d given_way_mps(const OilModes& modes, const OilSeen& seen, const 
 
 /// Strokes come in steps of 0.1 mm. Taken for motion, a step would shake the load and with it the
 /// duties: what is within it counts the less, the smaller it is.
-Eigen::Vector2d beyond_resolution_m(const Eigen::Vector2d& missed_m) {
-  const Eigen::Array2d size_m = missed_m.array().abs();
-  return (missed_m.array() * size_m / (size_m + kOilStrokeStep_m)).matrix();
+double counted_m(double missed_m, double step_m) {
+  const double size_m = std::abs(missed_m);
+  return step_m > 0.0 ? missed_m * size_m / (size_m + step_m) : missed_m;
 }
 
 /// What a drive lacks of its flow, at a pump's or a spool's end, it lacks less where the path asks
@@ -77,6 +78,7 @@ void forget_with_flow(const Eigen::Vector2d& before_mps, OilState& state) {
 OilSeen oil_seen(DriveRows drives, Span<const ValidDrive> seen) {
   OilSeen oil;
   oil.force_known = true;
+  oil.stroke_step_m = kOilStrokeStep_m;
   for (int axis = 0; axis < 2; ++axis) {
     oil.stroke_m[axis] = seen[axis].stroke_m;
     oil.force_n[axis] = drives[axis].extend_area_m2 * seen[axis].cap_pressure_pa -
@@ -121,8 +123,10 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
     speed[j] = total + turn.cosine * beyond + turn.speed_of_balance_ps * balance;
     oil[j] = turn.cosine * balance - turn.travel_of_speed_s * beyond - load[j];
   }
+  const Eigen::Vector2d missed_m = seen.stroke_m - modes.shape * travel;
   const Eigen::Vector2d missed_travel =
-      modes.inverse * beyond_resolution_m(seen.stroke_m - modes.shape * travel);
+      modes.inverse * Eigen::Vector2d(counted_m(missed_m[0], seen.stroke_step_m),
+                                      counted_m(missed_m[1], seen.stroke_step_m));
   const auto see = [&](int j) {
     const Eigen::Vector2d missed(missed_travel[j], seen.force_known ? seen_oil[j] - oil[j] : 0.0);
     const Eigen::Matrix<double, ModeGains::kStates, 1> change =

@@ -40,6 +40,8 @@ struct OilSeen {
   Eigen::Vector2d opened_for_n = Eigen::Vector2d::Zero();
   Eigen::Vector2d yield_mpsn = Eigen::Vector2d::Zero();
   bool force_known = false;
+  /// Of the strokes: a miss of so much counts half, what is within it less; 0: all counts whole.
+  double stroke_step_m = 0.0;
   int cycles = 1;  ///< Since it was last seen (cycles_in).
   /// Its spool is open, but its line does not press as hard as its load yet: no flow moves it, and
   /// none is missing.
