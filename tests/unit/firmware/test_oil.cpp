@@ -235,33 +235,6 @@ TEST(a_flow_error_is_learnt) {
   assert_near(state.speed_mps[0], plant.state[1], 5e-4);
 }
 
-/// Flow error of a drive of which `real` of the asked flow comes, after the path has asked for
-/// 80 mm/s and when it asks for `then_mps`.
-double error_when_path_asks_mps(double real, double then_mps) {
-  const OilGains gains{OilDesign{}};
-  const OilModes modes = plain_modes(20.0);
-  OneMode plant{20.0, gains.lag_s(), 0};
-  OilState state;
-  constexpr int kLearnt = 600;
-  for (int n = 0; n < kLearnt + 8; ++n) {
-    const double path_mps = n < kLearnt ? 0.08 : then_mps;
-    OilSeen seen = plant.seen(path_mps);
-    seen.expected_mps[0] = path_mps;
-    next_oil(gains, modes, seen, n > 0, true, state);
-    plant.step(real * path_mps, 0.0);
-  }
-  return state.flow_error_mps[0];
-}
-
-TEST(what_is_missing_is_less_where_the_path_asks_for_less) {
-  const double missing_mps = error_when_path_asks_mps(0.75, 0.08);
-  assert_near(missing_mps, -0.02, 1e-3);
-  assert_near(error_when_path_asks_mps(0.75, 0.02), missing_mps / 4.0, 2e-3);
-  assert_true(error_when_path_asks_mps(0.75, 0.12) > 1.2 * missing_mps);
-  // More flow than asked is a valve's, not a pump's: it stays until the observer sees otherwise.
-  assert_true(error_when_path_asks_mps(1.25, 0.02) > 0.015);
-}
-
 /// A drive at 7.4 mm a tenth of a second: its strokes come 0.7 or 0.8 mm further, and neither is a
 /// load.
 TEST(the_steps_of_a_stroke_are_no_load) {

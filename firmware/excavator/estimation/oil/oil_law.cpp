@@ -58,21 +58,6 @@ double counted_m(double missed_m, double step_m) {
   return step_m > 0.0 ? missed_m * size_m / (size_m + step_m) : missed_m;
 }
 
-/// What a drive lacks of its flow, at a pump's or a spool's end, it lacks less where the path asks
-/// for less. The observer alone takes half a second to see it, and the drive overshoots meanwhile.
-void forget_with_flow(const Eigen::Vector2d& before_mps, OilState& state) {
-  for (int axis = 0; axis < 2; ++axis) {
-    const double way = before_mps[axis] < 0.0 ? -1.0 : 1.0;
-    const double before = std::max(way * before_mps[axis], kOilLacksFrom_mps);
-    const double after =
-        std::max(way * state.expected[static_cast<unsigned>(axis)].second_mps, kOilLacksFrom_mps);
-    double& error_mps = state.flow_error_mps[axis];
-    if (way * error_mps < 0.0 && after < before) {
-      error_mps *= after / before;
-    }
-  }
-}
-
 }  // namespace
 
 OilSeen oil_seen(DriveRows drives, Span<const ValidDrive> seen) {
@@ -97,10 +82,8 @@ void next_oil(const OilGains& gains, const OilModes& modes, const OilSeen& seen,
   const double time_s = kCyclePeriod_s * seen.cycles;
   const double step = kOilHandOver_ps * time_s;
   state.weight = std::clamp(state.weight + (leads ? step : -step), 0.0, 1.0);
-  const Eigen::Vector2d before_mps = seconds(state.expected);
   const Eigen::Vector2d asked_mps =
       next_flow_mps(gains.lag_s(), seen, state) - given_way_mps(modes, seen, state);
-  forget_with_flow(before_mps, state);
   const Eigen::Vector2d kept_mps = state.flow_error_mps;
   const Eigen::Vector2d flow = modes.inverse * seen.stands.select(-kept_mps, asked_mps);
   const Eigen::Vector2d yield_mpn = modes.stiffness_npm.cwiseInverse();

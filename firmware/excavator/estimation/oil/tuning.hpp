@@ -48,10 +48,6 @@ inline constexpr double kOilFlowErrorMost_mps = 0.08;
 /// mm; 0.07 mm 2.7, 1.8, 38.5, but an exact 12 t at half speed 5.1 instead of 3.4 mm;
 /// none 5.6, 3.6, 37.0]
 inline constexpr double kOilStrokeStep_m = 5e-5;
-/// Speed of the path from which a flow that is missing is a share of it. [m/s; measured: `campaign
-/// dig --errors all --draws 60 --seed 3001` of negative flow: 63 mm p95; 0.02 65, 0.004 65, without
-/// such shares 79]
-inline constexpr double kOilLacksFrom_mps = 0.01;
 /// Rate at which the law takes over from the servo and gives back. [1/s; measured: half a second;
 /// `sweep.py`: soil's max_error_true_m 65.8; x0.7 61.7, x1.3 64.7]
 inline constexpr double kOilHandOver_ps = 2.0;
