@@ -25,7 +25,7 @@ struct Capability {
 };
 
 constexpr Capability kCapabilities[] = {
-    {"nothing", "-", "-", "22.0 / 37.8; 59.5 / 80.0; 21.7 / 36.1; 54.4 / 74.1",
+    {"nothing", "-", "-", "23.1 / 38.6; 58.8 / 85.5; 21.7 / 36.1; 54.4 / 74.1",
      [](const ExcavatorProfile&) { return false; }},
     {"strokes", "IMUs on the links",
      "a frame of another IMU under this one's address; one whose bits changed within its range; "
