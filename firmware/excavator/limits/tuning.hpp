@@ -16,11 +16,12 @@ inline constexpr double kMoveHeldUp = 0.3;
 /// largest error 28 / 30 mm in the median of the 22 t and 12 t machine, without any 59 / 76; 1.0:
 /// single draws at 128 and 168]
 inline constexpr double kEasedCorrects = 0.5;
-/// Rest of a blocked drive after which the others correct less. [s; measured: as kEasedCorrects:
-/// direction after the rock 26 / 25 deg p95, 22 t and 12 t; from 0 on 41 / 51, with corrections for
-/// the whole rest 66 / 80]
+/// Rest of a blocked drive after which the others correct less. [s; measured: `campaign dig
+/// --obstacle --draws 20`, rocks that hold for 2 to 4.2 s: direction after them 26 / 25 deg p95,
+/// 22 t and 12 t; from 0 on 41 / 51, with corrections for the whole rest 66 / 80]
 inline constexpr double kEasedStillFrom_s = 0.5;
-/// Time in which they then fade out. [s; measured: likewise; 0.3 from 0.5 s on: 27 / 28 deg]
+/// Time in which they then fade out. [s; measured: `campaign dig --obstacle --draws 20`, the same
+/// rocks: 26 / 25 deg; 0.3 s 27 / 28]
 inline constexpr double kEasedStills_s = 0.6;
 /// Factor on control.lambda_rise_reserve while Assist holds the edge on its design. [-; measured:
 /// `campaign assist`: at 1 lambda follows the boom's ringing pressure, and the 12 t machine's boom
